@@ -1,0 +1,39 @@
+# Two commands on a fresh machine: `make verify` and `make test`. A second run reuses the set-up.
+PYTHON ?= python3
+BIN := .venv/bin
+READY := .venv/.ready
+
+.PHONY: verify verify-fresh test lint bench notebooks generate clean
+
+$(READY): pyproject.toml constraints.txt
+	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed") if sys.version_info < (3, 11) else None'
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[test]'
+	touch $(READY)
+
+verify: $(READY)
+	$(BIN)/xsec verify
+
+verify-fresh: $(READY)
+	$(BIN)/xsec verify --fresh
+
+lint: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+test: lint
+	$(BIN)/python -m pytest
+
+bench: $(READY)
+	$(BIN)/python -m tests.bench
+
+notebooks: $(READY)
+	$(BIN)/python -m pytest tests/test_notebooks.py
+
+# Writes the generated kernels anew from the recorded verdicts; a test compares them with what is committed.
+generate: $(READY)
+	$(BIN)/python -m xsec_sym.export
+
+clean:
+	rm -rf .venv build *.egg-info

@@ -1,0 +1,92 @@
+"""Time and print the project's figures: `python -m tests.bench`. Each section is a function that returns its rows."""
+
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+VALUES = 10**6
+REPEATS = 15
+Row = tuple[str, str, str]
+
+
+def median_seconds(run: Callable[[], object], repeats: int = REPEATS) -> float:
+    """The median time of a call after one that warms caches and tables."""
+    run()
+    times = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        run()
+        times.append(time.perf_counter() - start)
+    return statistics.median(times)
+
+
+def import_rows() -> list[Row]:
+    code = (
+        "import time; start = time.perf_counter(); import xsec_sym.kernels; "
+        "import sys; print(time.perf_counter() - start, 'sympy' in sys.modules or 'mpmath' in sys.modules)"
+    )
+    runs = [subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True) for _ in range(5)]
+    fields = [run.stdout.split() for run in runs]
+    symbolic = "with" if any(symbolic == "True" for _, symbolic in fields) else "without"
+    seconds = statistics.median(float(duration) for duration, _ in fields)
+    return [("import xsec_sym.kernels", f"{1e3 * seconds:.0f} ms", f"{symbolic} SymPy or mpmath")]
+
+
+def kernel_rows() -> list[Row]:
+    from xsec_sym import kernels
+
+    rng = np.random.default_rng(1)
+    u, x = rng.uniform(-1, 1, (2, VALUES))
+    positive, u32, x32 = np.abs(u), u.astype(np.float32), x.astype(np.float32)
+    yardsticks = {
+        "copy": median_seconds(u.copy),
+        "np.sqrt": median_seconds(lambda: np.sqrt(positive)),
+        "np.exp": median_seconds(lambda: np.exp(u)),
+        "np.arccos": median_seconds(lambda: np.arccos(u)),
+    }
+    yardsticks["np.arccos + np.sqrt"] = median_seconds(lambda: np.arccos(u) + np.sqrt(positive))
+    runs: dict[str, Callable[[], object]] = {
+        "sigma_dirac_ring": lambda: kernels.sigma_dirac_ring(u, x),
+        "sigma_dirac_ring, float32": lambda: kernels.sigma_dirac_ring(u32, x32),
+        "sigma_power, p = 2": lambda: kernels.sigma_power(u, 2),
+        "sigma_power, p = 20": lambda: kernels.sigma_power(u, 20),
+        "sigma_power, p = 200": lambda: kernels.sigma_power(u, 200),
+    }
+    rows = [(name, f"{1e9 * seconds / VALUES:.2f} ns/value", "") for name, seconds in yardsticks.items()]
+    for name, run in runs.items():
+        seconds = median_seconds(run)
+        ratios = ", ".join(f"{seconds / yardsticks[key]:.1f} x {key}" for key in ("np.exp", "np.arccos + np.sqrt"))
+        rows.append((name, f"{1e9 * seconds / VALUES:.2f} ns/value", ratios))
+    return rows
+
+
+def cross_section_rows() -> list[Row]:
+    from xsec_sym.kernels import cross_section
+
+    u = np.linspace(-1, 1, 2001)
+    rows = []
+    for name, ndf in {
+        "exp": np.exp,
+        "a narrow lobe": lambda x: np.exp(5000 * (x - 1)),
+        "a step": lambda x: x > 0.3,
+    }.items():
+        seconds = median_seconds(lambda ndf=ndf: cross_section(ndf)(u), 3)
+        rows.append((f"cross_section of {name}", f"{1e6 * seconds / u.size:.0f} us/value", f"{u.size} directions"))
+    return rows
+
+
+SECTIONS: list[Callable[[], list[Row]]] = [import_rows, kernel_rows, cross_section_rows]
+
+
+def main() -> None:
+    for section in SECTIONS:
+        for name, figure, remark in section():
+            print(f"{name:32}{figure:>18}   {remark}".rstrip(), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,311 @@
+"""The engine must prove what is true, refute what is false, and know the difference from what it cannot tell."""
+
+from __future__ import annotations
+
+import copy
+from pathlib import Path
+
+import pytest
+from sympy import (
+    Abs, Function, Heaviside, Integral, Max, Piecewise, Rational, Sum, Symbol, acos, asin, atan, binomial, cos, cosh,
+    exp, log, oo, pi, sin, sinh, sqrt, symbols,
+)  # fmt: skip
+
+from xsec_sym.proof import EmptyDomain, Refused, Source, interval, parity
+from xsec_sym.proof.checker import opening, replay
+from xsec_sym.proof.domain import domain
+from xsec_sym.proof.piece import Piece
+from xsec_sym.proof.rules import Goal
+from xsec_sym.proof.steps import Step, derive
+from xsec_sym.proof.examine import examine
+from xsec_sym.proof.verify import verify
+
+a, u, x, t, phi = symbols("a u x t varphi", real=True)
+n = Symbol("n_p", integer=True, nonnegative=True)
+
+
+def equation(left, right, *where, **rest):
+    return Source("test").claim("1", "a test", left=left, printed=right, where=where, **rest)
+
+
+def on(*ranges):
+    return Piece.of(domain(ranges))
+
+
+# --- verdicts on whole equations -----------------------------------------------------------------------
+
+
+def test_the_arctangents_are_proved_on_one_side_of_the_pole():
+    verdict = examine(equation(atan(a) + atan(1 / a), pi / 2, interval(a, Rational(1, 10), 5)))
+    assert verdict.verdict == "proved"
+
+
+def test_the_arctangents_are_refuted_across_the_pole():
+    verdict = examine(equation(atan(a) + atan(1 / a), pi / 2, interval(a, -5, 5, open=True)))
+    assert verdict.verdict == "refuted"
+    assert Rational(verdict.witness["point"]["a"]) < 0
+
+
+def test_a_root_of_a_square_is_not_its_base():
+    verdict = examine(equation(sqrt(u**2), u, interval(u, -1, 1)))
+    assert verdict.verdict == "refuted"
+    assert Rational(verdict.witness["point"]["u"]) < 0
+
+
+def test_a_root_of_a_square_is_the_absolute_value():
+    assert examine(equation(sqrt(u**2), Abs(u), interval(u, -1, 1))).verdict in ("proved", "confirmed")
+
+
+def test_an_empty_domain_is_an_error():
+    with pytest.raises(EmptyDomain):
+        interval(u, 1, -1)
+    with pytest.raises(EmptyDomain):
+        examine(equation(u, u**2, interval(u, -1, 1), u > 2))
+
+
+def test_a_divergent_integral_is_never_given_a_value():
+    for right in (0, 1, 10, log(10**6)):
+        verdict = examine(equation(Integral(1 / x, (x, 0, a)), right, interval(a, 1, 2)))
+        assert verdict.verdict == "inconclusive", right
+
+
+def test_a_small_difference_is_seen():
+    almost = sin(a) ** 2 + cos(a) ** 2 + Rational(1, 10**25)
+    assert examine(equation(almost, 1, interval(a, -3, 3))).verdict == "refuted"
+
+
+def test_a_proof_that_a_witness_refutes_is_never_a_verdict(monkeypatch):
+    claim = equation(u, u + 1, interval(u, -1, 1))
+    claim.proof(lambda step: None)
+    monkeypatch.setattr(Piece, "is_zero", lambda self, e: True)
+    verdict = verify(claim, {claim.id: claim})
+    assert verdict.verdict == "inconclusive" and "witness" in verdict.note
+
+
+def test_a_correction_of_a_print_that_holds_is_rejected():
+    claim = equation(u + u, 2 * u, interval(u, -1, 1), corrected=2 * u + 0 * u, edit="nothing")
+    assert verify(claim, {claim.id: claim}).verdict == "inconclusive"
+
+
+def test_confirmed_needs_twenty_witnesses_and_a_second_opinion():
+    product = exp(log(2) * a) * 2 ** (1 - a)
+    verdict = examine(equation(Integral(exp(-x * a), (x, 0, 1)) * a * product / 2, 1 - exp(-a), interval(a, 1, 3)))
+    assert verdict.verdict in ("proved", "confirmed")
+    if verdict.verdict == "confirmed":
+        assert verdict.evidence["witnesses"] >= 20 and verdict.evidence["mpmath"] >= 1 and verdict.mutants >= 8
+
+
+def test_a_floating_point_number_proves_nothing():
+    assert examine(equation(u * 0.5, u / 2, interval(u, 0, 1))).verdict == "inconclusive"
+
+
+# --- the normal form ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [
+        sqrt(1 - u**2) ** 2 + u**2 - 1,
+        log(2 * u / (1 + u)) - log(2) - log(u) + log(1 + u),
+        exp(2 * u) - exp(u) ** 2,
+        cosh(u) ** 2 - sinh(u) ** 2 - 1,
+        acos(-u) + acos(u) - pi,
+        asin(u) + acos(u) - pi / 2,
+        sin(acos(u)) - sqrt(1 - u**2),
+        Abs(u) - u,
+        Max(0, -u),
+        binomial(2 * n + 2, n + 1) * (n + 1) - binomial(2 * n, n) * 2 * (2 * n + 1),
+        (u**2 - 1) ** (n + 1) * (-1) ** n + (1 - u**2) ** (n + 1),
+        sqrt(8) - 2 * sqrt(2),
+    ],
+    ids=str,
+)
+def test_identities_reduce_to_zero(expression):
+    assert on(interval(u, 0, 1, open=True)).is_zero(expression)
+
+
+@pytest.mark.parametrize("expression", [u, sqrt(u**2 + 1) - u - 1, log(u) + u, exp(u) - 1 - u, sqrt(2) + sqrt(3)])
+def test_what_is_not_zero_stays(expression):
+    assert not on(interval(u, 0, 1, open=True)).is_zero(expression)
+
+
+def test_no_sign_is_taken_for_granted():
+    both = on(interval(u, -1, 1))
+    assert both.sign(u) is None
+    assert not both.is_zero(sqrt(u**2) - u)
+    assert not both.is_zero(Abs(u) - u)
+    assert both.sign(1 - u**2) == ">="
+    assert on(interval(u, -1, 1, open=True)).sign(1 - u**2) == "+"
+
+
+def test_branches_are_settled_only_by_facts():
+    pieces = Piecewise((u, u > 0), (0, True))
+    assert on(interval(u, 0, 1, open="left")).is_zero(pieces - u)
+    assert not on(interval(u, -1, 1)).is_zero(pieces - u)
+    assert on(interval(u, -1, 1)).is_zero(Max(0, u) - u * Heaviside(u))
+
+
+# --- the moves ------------------------------------------------------------------------------------------
+
+
+def step_on(left, right, *ranges):
+    return Step(Goal(left, right, on(*ranges)), {}, [])
+
+
+def test_an_antiderivative_must_be_one():
+    with pytest.raises(Refused, match="derivative"):
+        step_on(Integral(x**2, (x, 0, 1)), Rational(1, 3)).antiderivative(x**3)
+    step_on(Integral(x**2, (x, 0, 1)), Rational(1, 3)).antiderivative(x**3 / 3).close()
+
+
+def test_an_antiderivative_must_be_continuous():
+    with pytest.raises(Refused):
+        step_on(Integral(1 / (1 + x**2), (x, -1, 1)), 0).antiderivative(-atan(1 / x))
+    with pytest.raises(Refused):
+        step_on(Integral(1 / x**2, (x, -1, 1)), -2).antiderivative(-1 / x)
+
+
+def test_a_cut_must_lie_inside():
+    with pytest.raises(Refused, match="not shown to lie above"):
+        step_on(Integral(Abs(x), (x, 0, 1)), 1).split(2)
+
+
+def test_an_ode_wants_one_connected_piece():
+    claim = step_on(atan(a) + atan(1 / a), pi / 2, interval(a, -5, 5))
+    with pytest.raises(Refused):
+        claim.ode(a, [0, 1], at=1)
+    step_on(atan(a) + atan(1 / a), pi / 2, interval(a, Rational(1, 10), 5)).ode(a, [0, 1], at=1)
+
+
+def test_an_ode_wants_its_initial_values():
+    with pytest.raises(Refused, match="derivative 0"):
+        step_on(cos(a) + 1, cos(a), interval(a, -1, 1)).ode(a, [0, 1], at=0)
+    step_on(exp(a), cosh(a) + sinh(a), interval(a, -1, 1)).ode(a, [-1, 0, 1], at=0)
+
+
+def test_an_ode_must_not_be_singular():
+    with pytest.raises(Refused):
+        step_on(a, a, interval(a, -1, 1)).ode(a, [0, a], at=Rational(1, 2))
+
+
+def test_a_case_must_have_one_root():
+    with pytest.raises(Refused):
+        list(step_on(u, u, interval(u, -1, 1)).cases(u**2 - Rational(1, 4), u, Rational(1, 2), u + Rational(1, 2)))
+
+
+def test_a_piece_is_not_empty_for_the_asking():
+    with pytest.raises(Refused, match="empty"):
+        step_on(u, u, interval(u, -1, 1)).vacuous()
+
+
+def test_a_sign_must_show():
+    with pytest.raises(Refused):
+        step_on(u, u, interval(u, -1, 1)).fact(u + Rational(1, 2), u, Rational(1, 2))
+
+
+def test_a_fact_about_an_integrand_stays_there():
+    step = step_on(Integral(Abs(x), (x, -1, 0)) + Integral(Abs(x), (x, 0, 1)), 1)
+    step.fact(x, x, inside=(x, 0, 1))
+    assert step.goal.piece.inside(x, -1, 0).sign(x) == "-"
+    assert step.goal.piece.sign(x) is None
+
+
+def test_tonelli_wants_one_sign():
+    inner = Integral(t - x, (t, 0, 1))
+    with pytest.raises(Refused, match="one sign"):
+        step_on(Integral(x * inner, (x, -1, 1)), 0).exchange()
+
+
+def test_branches_do_not_leave_the_integral_that_binds_them():
+    """SymPy pulls a Piecewise out of a nested integral, and the inner variable with it."""
+    f = Function("f")
+    proven = equation(f(x, t), Piecewise((1, t < x), (0, True)), interval(x, 0, 1), interval(t, 0, 1))
+    step = Step(Goal(Integral(x * Integral(f(x, t), (t, 0, 1)), (x, 0, 1)), 0 * x, Piece()), {proven.id: proven}, [])
+    with pytest.raises(Refused, match="free"):
+        step.lemma(proven)
+
+
+def test_induction_checks_base_and_step():
+    integral = Integral(x ** (2 * n), (x, 0, 1))
+    good = dict(base=x, primitive=x ** (2 * n + 1), following=0, present=2 * n + 1)
+    with pytest.raises(Refused):
+        step_on(integral, 1).recurrence(n, 1 / (2 * n + 1), **good)  # following may vanish: nothing is carried on
+    wrong = dict(base=x, primitive=x ** (2 * n + 3), following=2 * n + 3, present=0)
+    step_on(integral, 1 / (2 * n + 1)).recurrence(n, 1 / (2 * n + 1), **wrong).close()
+    with pytest.raises(Refused, match="closed form"):
+        step_on(integral, 1).recurrence(n, 1 / (2 * n + 2), **wrong)
+
+
+def test_a_telescoping_sum_is_checked():
+    j = Symbol("j", integer=True, positive=True)
+    total = Sum(1 / (j * (j + 1)), (j, 1, n))
+    step_on(total, n / (n + 1)).telescope(-1 / (j + 1)).close()
+    with pytest.raises(Refused):
+        step_on(total, n / (n + 1)).telescope(1 / (j + 1))
+
+
+def test_divergence_wants_a_divergent_minorant():
+    integral = Integral(1 / sqrt(x), (x, 0, 1))
+    with pytest.raises(Refused):
+        step_on(integral, oo).diverges(1 / x, 1, end="low")
+    with pytest.raises(Refused):
+        step_on(Integral(1 / x, (x, 0, 1)), 7).diverges(1 / x, 1, end="low")
+    step_on(Integral(2 / x, (x, 0, 1)), oo).diverges(1 / x, 1, end="low")
+
+
+# --- certificates ---------------------------------------------------------------------------------------
+
+
+def half_square():
+    claim = equation(Integral(x * u, (x, 0, 1)), u / 2, interval(u, -1, 1))
+    claim.proof(lambda step: step.antiderivative(u * x**2 / 2))
+    return claim
+
+
+def test_a_certificate_replays_against_its_claim():
+    claim = half_square()
+    certificate, _ = derive(claim, {})
+    assert replay(claim, certificate, {}) == len(certificate["moves"])
+
+
+def test_a_certificate_proves_only_its_own_claim():
+    certificate, _ = derive(half_square(), {})
+    other = Source("test").claim("2", "another", left=u, printed=u, where=[interval(u, -1, 1)])
+    with pytest.raises(Refused, match="not one for"):
+        replay(other, certificate, {})
+    wrong = equation(Integral(x * u, (x, 0, 1)), u / 3, interval(u, -1, 1))
+    with pytest.raises(Refused):
+        replay(wrong, certificate, {})
+
+
+def test_a_tampered_certificate_is_refused():
+    claim = half_square()
+    certificate, _ = derive(claim, {})
+    for broken in (
+        {**certificate, "moves": certificate["moves"][:-1]},
+        {**certificate, "moves": [*certificate["moves"], certificate["moves"][-1]]},
+        {**certificate, "moves": [["believe", {}]]},
+    ):
+        with pytest.raises(Refused):
+            replay(claim, broken, {})
+    changed = copy.deepcopy(certificate)
+    changed["moves"][0][1]["primitive"] = ["int", "1"]
+    with pytest.raises(Refused):
+        replay(claim, changed, {})
+
+
+def test_the_checker_does_not_know_how_proofs_are_found():
+    import sys
+
+    import xsec_sym.proof.checker as checker
+
+    names = {m.__name__ for m in vars(checker).values() if type(m) is type(sys)}
+    assert "xsec_sym.proof.steps" not in names
+    source = Path(checker.__file__).read_text()
+    assert "steps" not in source.split('"""', 2)[2].split("def ", 1)[0] and "import derivations" not in source
+
+
+def test_opening_rebuilds_the_goal_from_the_claim():
+    p = Symbol("p", integer=True, nonnegative=True)
+    goal = opening(equation(u**p, u**p, interval(u, -1, 1), parity(p, odd=True)))
+    assert goal.left == u ** (2 * n + 1)

@@ -1,0 +1,71 @@
+import json
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from sympy import Symbol, oo, pi, sqrt, symbols
+
+from xsec_sym.exact import RingCrossSection
+from xsec_sym.proof import Source, integers, interval
+from xsec_sym.proof.domain import Choices
+from xsec_sym.proof.verdict import RANK, Verdict
+from xsec_sym.record.entry import PUBLIC, Entry
+
+u, x = symbols("u x", real=True)
+n, q = Symbol("n", integer=True), Symbol("q", real=True)
+
+
+def test_everything_comes_back(source):
+    where = [
+        interval(u, -1, 1, open="left"),
+        interval(x, u, oo),
+        integers(n, 2, 8),
+        Choices(q, (pi, sqrt(2))),
+        u * x > 0,
+    ]
+    claim = source.claim("7", "a title", left=RingCrossSection(u, x), printed=u**n, corrected=x**n / q, edit="swap",
+                         where=where, reading="as printed")  # fmt: skip
+    witness = {"point": {"u": "1/2"}, "left": "1.0", "right": "2.0"}
+    verdict = Verdict(
+        "misprint", 30, witness, {"balls": 20, "range": (1, 2)}, 9, 1.23456, ((0, "one"), (1, "two")), note="N"
+    )
+    entry = Entry.of(claim, verdict, key="k")
+    again = Entry.from_json(json.loads(json.dumps(entry.to_json())))
+    assert again == entry
+    assert again.form == x**n / q and again.side("printed") == u**n and again.side("left") == RingCrossSection(u, x)
+    assert again.where.variables == claim.domain.variables and again.where.conditions == claim.domain.conditions
+    assert again.latex("corrected") == r"\sigma_{\delta}\left(u, x\right) = \frac{x^{n}}{q}"
+    assert (again.digits, again.mutants, again.seconds, again.steps) == (30, 9, 1.23, ((0, "one"), (1, "two")))
+    assert tuple(again.public()) == PUBLIC
+
+
+@given(
+    st.sampled_from(RANK),
+    st.none() | st.integers(1, 99),
+    st.dictionaries(st.text(), st.none() | st.text() | st.integers() | st.floats() | st.lists(st.booleans())),
+    st.text(),
+)
+def test_any_verdict_comes_back(word, digits, evidence, note):
+    claim = Source("sample").claim("any", "", left=u * u, printed=u**2)
+    entry = Entry.of(claim, Verdict(word, digits, evidence=evidence, note=note))
+    assert Entry.from_json(json.loads(json.dumps(entry.to_json(), allow_nan=False))) == entry
+
+
+def test_blank_definition_whole_and_out_of_scope(source):
+    blank = Entry.of(source.claim("b", "", left=u + u, corrected=2 * u), Verdict("proved"))
+    assert blank.printed is None and blank.corrected == "2 u" and blank.form == 2 * u
+    defined = Entry.of(source.definition("d", "", left=x, printed=u), Verdict("definition"))
+    assert defined.form == u
+    scope = Entry.of(source.out_of_scope("o", "", because="a time"), Verdict("out-of-scope"))
+    assert scope.left == "" and scope.reading == "a time"
+    with pytest.raises(ValueError, match="sample:o has no expression"):
+        _ = scope.form
+    with pytest.raises(ValueError, match="no side"):
+        scope.side("middle")
+
+
+def test_display(claims):
+    entry = Entry.of(claims["sample:2"], Verdict("confirmed", 30, note="<odd>"))
+    assert entry._repr_latex_() == r"$\displaystyle u^{3} = u^{3}$"
+    assert "&lt;odd&gt;" in entry._repr_html_() and "confirmed" in entry._repr_html_()
+    assert str(entry) == "sample:2 (power 2): confirmed" and entry.settled

@@ -1,0 +1,311 @@
+"""The command line: it parses, calls and prints. Whatever was typed wrong is told in one line, with exit code 2."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, NoReturn, TextIO
+
+import click
+
+INTERRUPTED = 130
+
+
+class _Program(click.Group):
+    """Tells every mistake in one line on standard error, and leaves quietly on Ctrl-C."""
+
+    def main(self, *args: Any, standalone_mode: bool = True, **extra: Any) -> Any:
+        run: Any = super().main
+        if not standalone_mode:
+            return run(*args, standalone_mode=False, **extra)
+        code: Any
+        try:
+            code = run(*args, standalone_mode=False, **extra)
+        except click.ClickException as mistake:
+            click.echo(f"xsec: {_one_line(mistake.format_message())}", err=True)
+            code = 2
+        except (click.Abort, KeyboardInterrupt):
+            code = INTERRUPTED
+        sys.exit(code if isinstance(code, int) else 0)
+
+
+class _Count(click.IntRange):
+    name = "N"
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())
+
+
+def complain(said: object) -> NoReturn:
+    raise click.ClickException(str(said))
+
+
+@contextlib.contextmanager
+def _output(path: str | None) -> Iterator[TextIO | None]:
+    """A file that appears only when the block ends well; its folder is tried before any work is done."""
+    from xsec_sym.record.files import writing
+
+    if path is None:
+        yield None
+        return
+    with contextlib.ExitStack() as stack:
+        try:
+            out = stack.enter_context(writing(path))
+        except (OSError, ValueError) as error:
+            complain(f"cannot write {path}: {getattr(error, 'strerror', None) or error}")
+        yield out
+
+
+def _ledger(derivations: str | None) -> Any:
+    from xsec_sym.record import store
+
+    folders = [store.DATA, *([Path(derivations) / "record"] if derivations else [])]
+    found = store.Ledger(*folders)
+    try:
+        len(found)
+    except store.BrokenRecord as error:
+        complain(error)
+    return found
+
+
+@click.group(cls=_Program, invoke_without_command=True, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="xsec_sym", message="xsec %(version)s")
+@click.pass_context
+def main(context: click.Context) -> None:
+    """Derive, verify and export the formulas of rendering papers."""
+    if context.invoked_subcommand is None:
+        click.echo(context.get_help())
+
+
+OWN = click.option("--derivations", metavar="PATH", help="Add a folder of derivation modules of your own.")
+
+
+@main.command()
+@click.argument("ids", nargs=-1, metavar="[ID]...")
+@click.option("--source", "sources", multiple=True, metavar="KEY", help="Only this source; may be given again.")
+@click.option("--digits", type=_Count(10, 1000), default=30, show_default=True, help="Digits to agree on.")
+@click.option("--seed", type=_Count(0), default=0, show_default=True, help="Seed of the points tested.")
+@click.option("--jobs", type=_Count(1, 1024), help="Processes to use.  [default: one a core]")
+@click.option("--cluster", metavar="ADDRESS", help="Hand the work to a dask.distributed scheduler.")
+@click.option("--fresh", is_flag=True, help="Derive everything again instead of replaying recorded proofs.")
+@click.option("--record", is_flag=True, help="Write the new verdicts as the recorded ones.")
+@OWN
+@click.option("--json", "target", metavar="FILE", help="Write the verdicts as JSON as well.")
+@click.pass_context
+def verify(
+    context: click.Context,
+    ids: tuple[str, ...],
+    sources: tuple[str, ...],
+    digits: int,
+    seed: int,
+    jobs: int | None,
+    cluster: str | None,
+    fresh: bool,
+    record: bool,
+    derivations: str | None,
+    target: str | None,
+) -> None:
+    """Check the claims again: all, the given ids, or one source.
+
+    Exit code 0 when every verdict is settled and is the recorded one, 1 when any differs or is not settled.
+    """
+    with _output(target) as out:
+        from xsec_sym.record import show
+        from xsec_sym.record.run import Settings, differences, to_record, verify_all
+
+        if cluster and derivations:
+            complain("--derivations cannot go with --cluster: its machines do not have that folder")
+        claims = _claims(derivations)
+        ledger = _ledger(derivations)
+        chosen = _chosen(ids, sources, claims, ledger)
+        settings = Settings(digits, seed, fresh, jobs or os.cpu_count() or 1)
+        execute = _remote(cluster, settings) if cluster else None
+        with _progress(len(chosen)) as tick:
+            results = verify_all(claims, chosen, ledger, settings, execute=execute, tick=tick)
+        entries = [r.entry for r in results]
+        restricted = set(sources) if sources else set() if ids else {e.source for e in ledger.values()}
+        met = [e.id for e in ledger.values() if e.source in restricted]
+        found = differences(results, ledger, claims, met)
+        # a claim of the user's own is new at first, and that is no fault
+        own = {r.entry.id for r in results if not claims[r.entry.id].module.startswith("derivations")}
+        faults = [said for said in found if said.partition(": ")[0] not in own - set(ledger)]
+        if record:
+            _record(results, to_record(results, ledger), ledger, claims, [n for n in met if n not in claims], own)
+            faults = []
+        if out is not None:
+            _write_json(out, entries, digits)
+    _print_verdicts(entries)
+    for said in [*show.summary(entries), *([] if record and not found else found)]:
+        click.echo(said)
+    if record:
+        click.echo("recorded")
+    context.exit(1 if faults or not all(e.settled for e in entries) else 0)
+
+
+def _claims(derivations: str | None) -> dict[str, Any]:
+    from xsec_sym.record.discover import BrokenDerivation, discover
+
+    try:
+        return discover(derivations)
+    except BrokenDerivation as error:
+        complain(error)
+
+
+def _chosen(ids: Sequence[str], sources: Sequence[str], claims: dict[str, Any], ledger: Any) -> list[str]:
+    from xsec_sym.record.store import nearest
+
+    known = list(dict.fromkeys(c.source for c in claims.values()))
+    for name in ids:
+        if name not in claims:
+            complain(f"there is no claim {name}{nearest(name, claims)}")
+    for key in sources:
+        if key not in known:
+            complain(f"there is no source {key}{nearest(key, known) or '; there are ' + ', '.join(known)}")
+    if not ids and not sources:
+        return list(claims)
+    return [name for name, c in claims.items() if name in ids or c.source in sources]
+
+
+def _remote(address: str, settings: Any) -> Any:
+    from xsec_sym.record.cluster import NoCluster, remote
+
+    try:
+        return remote(address, settings)
+    except NoCluster as error:
+        complain(error)
+
+
+@contextlib.contextmanager
+def _progress(total: int) -> Iterator[Callable[[str], None]]:
+    if not sys.stderr.isatty():
+        yield lambda name: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn("{task.description}")
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=total)
+        yield lambda name: bar.update(task, advance=1, description=name)
+
+
+def _record(results: Any, kept: Any, ledger: Any, claims: dict[str, Any], gone: list[str], own: set[str]) -> None:
+    """Claims of the user's own are recorded beside them, the project's in the package."""
+    from xsec_sym.record.store import Ledger
+
+    entries, certificates = kept
+    for folder, mine in [(ledger.folders[0], False), *((f, True) for f in ledger.folders[1:])]:
+        here = [e for e in entries if (e.id in own) == mine]
+        stored = Ledger(folder)
+        dropped = [name for name in gone if name in stored]
+        if here or dropped:
+            proofs = {e.id: certificates[e.id] for e in here}
+            try:
+                stored.write(here, proofs, order=claims, gone=dropped)
+            except OSError as error:
+                complain(f"cannot write the record in {folder}: {error.strerror or error}")
+
+
+def _write_json(out: TextIO, entries: list[Any], digits: int) -> None:
+    from xsec_sym import __version__
+    from xsec_sym.record.files import layout
+
+    data = {"version": __version__, "digits": digits, "entries": [e.public() for e in entries]}
+    out.write(layout(data) + "\n")
+
+
+def _print_verdicts(entries: list[Any]) -> None:
+    from xsec_sym.record import show
+
+    if sys.stdout.isatty():
+        from rich.console import Console
+
+        Console().print(show.table(entries))
+    else:
+        for line in show.lines(entries):
+            click.echo(line)
+    for entry in entries:
+        if not entry.settled and entry.note:
+            click.echo(f"{entry.id}: {_one_line(entry.note)}")
+
+
+@main.command()
+@click.argument("name", metavar="ID")
+@OWN
+def show(name: str, derivations: str | None) -> None:
+    """Tell what the record holds on one equation: its forms, verdict, evidence and steps."""
+    from xsec_sym.record import show as text
+    from xsec_sym.record.store import UnknownEntry
+
+    ledger = _ledger(derivations)
+    try:
+        entry = ledger[name]
+    except UnknownEntry as error:
+        complain(error)
+    click.echo(text.told(entry, ledger))
+
+
+@main.command()
+@click.argument("lhs")
+@click.argument("rhs")
+@click.option("--where", default="", help='The domain, such as "u in (-1, 1), n in {0, 1, 2}, u*n > 0".')
+@click.option("--digits", type=_Count(1, 1000), default=30, show_default=True, help="Digits to agree on.")
+@click.option("--seconds", type=click.FloatRange(0.1, 86400), default=60.0, show_default=True, help="Time limit.")
+@click.pass_context
+def check(context: click.Context, lhs: str, rhs: str, where: str, digits: int, seconds: float) -> None:
+    """Check an equation of your own: LHS = RHS wherever --where holds.
+
+    Exit code 0 when it is proved or confirmed, 1 when it is refuted, 3 when neither could be shown in time.
+    """
+    from xsec_sym.proof.domain import EmptyDomain
+    from xsec_sym.proof.limits import check as judge
+    from xsec_sym.proof.parse import ParseError
+    from xsec_sym.record.show import answer
+
+    try:
+        verdict = judge(lhs, rhs, where, digits, seconds)
+    except (ParseError, EmptyDomain) as error:
+        complain(error)
+    click.echo(answer(verdict))
+    context.exit(0 if verdict.settled else 1 if verdict.verdict == "refuted" else 3)
+
+
+@main.command()
+@click.argument("names", nargs=-1, metavar="[NAME]...")
+@click.option("-o", "target", metavar="FILE", help="The module to write.  [default: standard output]")
+@click.option("--dtype", type=click.Choice(["float32", "float64"]), default="float64", show_default=True)
+def export(names: tuple[str, ...], target: str | None, dtype: str) -> None:
+    """Write verified expressions as one module that imports NumPy; without a NAME, list what there is."""
+    from importlib import import_module
+
+    exporter = import_module("xsec_sym.export")
+    if not names:
+        if target is not None:
+            complain("name what to export; without a name there is only the list")
+        for line in _exportable(exporter):
+            click.echo(line)
+        return
+    with _output(None if target == "-" else target) as out:
+        try:
+            text = exporter.module(list(names), dtype)
+        except (exporter.Refusal, KeyError) as error:
+            complain(error if isinstance(error, exporter.Refusal) else str(error))
+        if out is not None:
+            out.write(text)
+    if out is None:
+        click.echo(text, nl=False)
+
+
+def _exportable(exporter: Any) -> list[str]:
+    if hasattr(exporter, "names"):
+        return [str(name) for name in exporter.names()]
+    holds = ("proved", "confirmed", "misprint")
+    return [f"{e.id}  {e.title}" for e in _ledger(None).values() if e.kind == "equation" and e.verdict in holds]
+
+
+if __name__ == "__main__":
+    main()

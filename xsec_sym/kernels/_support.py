@@ -1,0 +1,132 @@
+"""What every kernel shares: NumPy's semantics for a function of real arguments, and error-free sums and products."""
+
+import math
+from collections.abc import Callable, Collection
+from typing import Any
+
+import numpy as np
+
+# A block of doubles is 128 KiB: a few temporaries of a kernel stay in a second-level cache, and calls cost little.
+BLOCK = 16384
+
+
+def real_array(name: str, value: np.typing.ArrayLike) -> np.ndarray:
+    """`value` as an array of real numbers; a TypeError or ValueError that names the argument where it is none."""
+    if isinstance(value, int):
+        # Python's integers have no largest one, and NumPy turns those past 64 bits into objects.
+        try:
+            value = float(value)
+        except OverflowError:
+            value = math.inf if value > 0 else -math.inf
+    try:
+        array = np.asarray(value)
+    except ValueError as error:
+        raise ValueError(f"{name} is not a rectangular array of numbers") from error
+    if array.dtype.kind not in "buif":
+        raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
+    return array
+
+
+def result_dtype(arguments: dict[str, np.typing.ArrayLike], orders: Collection[str] = ()) -> type[np.floating]:
+    """float32 where every argument that has a dtype of its own is float32, else float64.
+
+    Python's numbers have none, and neither have integers among `orders`, the arguments that count something.
+    """
+    typed = [
+        np.asarray(value).dtype
+        for name, value in arguments.items()
+        if not isinstance(value, (int, float)) or isinstance(value, np.generic)
+        if not (name in orders and np.asarray(value).dtype.kind in "bui")
+    ]
+    return np.float32 if typed and all(dtype == np.float32 for dtype in typed) else np.float64
+
+
+def elementwise(
+    core: Callable[..., np.ndarray], orders: Collection[str] = (), **arguments: np.typing.ArrayLike
+) -> np.ndarray | np.floating:
+    """Broadcast the named arguments, run `core` on blocks of float64 vectors, and return its values in their shape.
+
+    `core` gets one vector an argument, all of one length, and must neither change them nor keep them; it answers
+    with NaN where an argument is outside its domain. Floating-point warnings are off while it runs.
+
+    >>> elementwise(lambda x, y: x + y, x=1, y=[2, 3.5])
+    array([3. , 4.5])
+    """
+    arrays = [real_array(name, value) for name, value in arguments.items()]
+    dtype = result_dtype(arguments, orders)
+    try:
+        shape = np.broadcast_shapes(*(array.shape for array in arrays))
+    except ValueError as error:
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(arguments, arrays, strict=True))
+        raise ValueError(f"these shapes do not broadcast: {shapes}") from error
+    result = np.empty(shape, dtype)
+    access: Any = [("readonly",)] * len(arrays) + [("writeonly", "no_broadcast")]
+    blocks = np.nditer(
+        (*arrays, result),
+        flags=("external_loop", "buffered", "zerosize_ok"),
+        op_flags=access,
+        op_dtypes=(np.float64,) * (len(arrays) + 1),
+        casting="same_kind",
+        buffersize=BLOCK,
+    )
+    with np.errstate(all="ignore"), blocks:
+        for *vectors, out in blocks:
+            # Without a cast the buffer is skipped, and a block may then be the whole array.
+            for start in range(0, out.size, BLOCK):
+                part = slice(start, start + BLOCK)
+                out[part] = core(*(vector[part] for vector in vectors))
+    return result[()]
+
+
+def horner(coefficients: Collection[float], x: np.ndarray) -> np.ndarray:
+    """The polynomial with these coefficients, highest power first."""
+    first, *rest = coefficients
+    total = np.full_like(x, first)
+    for coefficient in rest:
+        total *= x
+        total += coefficient
+    return total
+
+
+def two_sum(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """a + b as its rounded value and the exact rounding error (Knuth).
+
+    >>> [float(part) for part in two_sum(1.0, 2.0**-60)] == [1.0, 2.0**-60]
+    True
+    """
+    total = a + b
+    shadow = total - a
+    return total, (a - (total - shadow)) + (b - shadow)
+
+
+def quick_two_sum(a: np.ndarray | float, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """As `two_sum`, in half the steps, where |a| >= |b| or a = 0 (Dekker)."""
+    total = a + b
+    return total, b - (total - a)
+
+
+def split(a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """a as the exact sum of two numbers of 26 bits each (Veltkamp); |a| < 2^996."""
+    scaled = 134217729.0 * a
+    high = scaled - (scaled - a)
+    return high, a - high
+
+
+def two_prod(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """a b as its rounded value and the rounding error, exact unless it underflows (Dekker; NumPy has no fma).
+
+    >>> product, error = two_prod(1 + 2.0**-30, 1 - 2.0**-30)
+    >>> float(product), float(error) == -(2.0**-60)
+    (1.0, True)
+    """
+    product = a * b
+    a_high, a_low = split(a)
+    b_high, b_low = split(b)
+    return product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+
+
+def two_square(a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """a^2 as its rounded value and the rounding error: `two_prod` with one split."""
+    square = a * a
+    high, low = split(a)
+    return square, ((high * high - square) + 2.0 * high * low) + low * low

@@ -1,0 +1,210 @@
+"""The moves that act on an integral: split it, change its variable, evaluate it, or show that it is infinite."""
+
+from __future__ import annotations
+
+from sympy import Add, Expr, Integral, Sum, Symbol, diff, log, oo
+
+from xsec_sym.proof.piece import Piece
+from xsec_sym.proof.rules import (
+    SWITCHES,
+    Goal,
+    Proven,
+    Refused,
+    contexts,
+    continuous_at,
+    demand,
+    lemma,
+    occurs,
+    resolved,
+    smooth,
+)
+
+
+def _parts(goal: Goal, integral: Integral) -> tuple[Expr, Symbol, Expr, Expr, Piece, Piece]:
+    demand(occurs(integral, goal.left), f"{integral} does not occur")
+    demand(len(integral.limits) == 1 and len(integral.limits[0]) == 3, f"{integral} is not over one interval")
+    x, low, high = integral.limits[0]
+    (outer, *_) = contexts(goal, integral)
+    return integral.function, x, low, high, outer, outer.inside(x, low, high)
+
+
+def split(goal: Goal, integral: Integral, points: list[Expr]) -> list[Goal]:
+    """One integral as several, cut at ordered points; on each part every switch takes its one branch."""
+    f, x, low, high, outer, _ = _parts(goal, integral)
+    ends = [low, *points, high]
+    total = []
+    for a, b in zip(ends, ends[1:], strict=False):
+        demand(outer.sign(b - a) in ("+", ">=", "0"), f"the cut {b} is not shown to lie above {a}")
+        body = branch(f, x, a, b, outer)
+        total.append(Integral(body, (x, a, b)) if body != 0 else 0)
+    return [goal.with_left(goal.left.xreplace({integral: Add(*total)}))]
+
+
+def branch(f: Expr, x: Symbol, a: Expr, b: Expr, outer: Piece) -> Expr:
+    """f on (a, b) without switches. A switch whose argument vanishes at an end is settled by its slope."""
+    inner = outer.inside(x, a, b)
+    try:
+        return resolved(f, inner)
+    except Refused:
+        learned = []
+        for node in f.atoms(*SWITCHES):
+            for g in node.atoms(Expr) & set(_arguments(node)):
+                if g.has(x) and inner.sign(g) not in ("+", "-"):
+                    slope = inner.sign(diff(g, x))
+                    if slope in ("+", "-") and outer.is_zero(g.subs(x, a)):
+                        learned.append((g if slope == "+" else -g, True))
+                    elif slope in ("+", "-") and outer.is_zero(g.subs(x, b)):
+                        learned.append((-g if slope == "+" else g, True))
+        if not learned:
+            raise
+        return resolved(f, inner.extended(learned))
+
+
+def _arguments(node: Expr) -> list[Expr]:
+    return [a for a in node.args if isinstance(a, Expr)]
+
+
+def linear(goal: Goal, integral: Integral, terms: list[Expr]) -> list[Goal]:
+    """The integral of a sum as the sum of integrals, factors free of the variable drawn out. Each must converge."""
+    f, x, low, high, _, inner = _parts(goal, integral)
+    demand(inner.is_zero(f - Add(*terms)), f"the terms do not add up to {f}")
+    drawn = []
+    for term in terms:
+        outside, inside = term.as_independent(x, as_Add=False)
+        drawn.append(outside * Integral(inside, (x, low, high)))
+    return [goal.with_left(goal.left.xreplace({integral: Add(*drawn)}))]
+
+
+def exchange(
+    goal: Goal, integral: Integral, proven: Proven | None = None, mapping: dict[Symbol, Expr] | None = None
+) -> list[Goal]:
+    """Swap the two integrations of an iterated integral whose integrand has one sign (Tonelli).
+
+    The sign may rest on a lemma: its left side is then read as its right side.
+    """
+    f, x, low, high, _, inner = _parts(goal, integral)
+    outside, rest = f.as_independent(Integral, as_Add=False)
+    demand(isinstance(rest, Integral) and len(rest.limits) == 1, f"{f} is not a factor times one inner integral")
+    y, a, b = rest.limits[0]
+    demand(not (a.has(x) or b.has(x) or low.has(y) or high.has(y)), "the limits depend on the other variable")
+    deepest = inner.inside(y, a, b)
+    integrand = outside * rest.function
+    if proven is not None:
+        (shown,) = lemma(Goal(integrand, goal.right, deepest), proven, mapping or {})
+        integrand = shown.left
+    demand(deepest.sign(integrand) in ("+", ">=", "-", "<=", "0"), "the integrand is not shown to keep one sign")
+    fixed, moving = outside.as_independent(x, as_Add=False)
+    drawn, kept = rest.function.as_independent(x, as_Add=False)
+    swapped = fixed * Integral(drawn * Integral(moving * kept, (x, low, high)), (y, a, b))
+    return [goal.with_left(goal.left.xreplace({integral: swapped}))]
+
+
+def substitute(goal: Goal, integral: Integral, new: Symbol, g: Expr, low: Expr, high: Expr) -> list[Goal]:
+    """x = g(new) with g strictly monotone between low and high, which it maps to the limits."""
+    f, x, a, b, outer, _ = _parts(goal, integral)
+    demand(outer.is_zero(g.subs(new, low) - a) and outer.is_zero(g.subs(new, high) - b), "the limits do not match")
+    rising = outer.sign(high - low) in ("+", ">=", "0")
+    inner = outer.inside(new, *((low, high) if rising else (high, low)))
+    smooth(g, new, inner)
+    slope = diff(g, new)
+    demand(inner.sign(slope) in ("+", "-"), f"{g} is not shown to be monotone")
+    body = f.xreplace({x: g}) * slope
+    if not rising:
+        low, high, body = high, low, -body
+    return [goal.with_left(goal.left.xreplace({integral: Integral(body, (new, low, high))}))]
+
+
+def antiderivative(goal: Goal, integral: Integral, primitive: Expr) -> list[Goal]:
+    """The integral as the difference of a primitive's end values."""
+    f, x, low, high, outer, _ = _parts(goal, integral)
+    value = _difference(f, primitive, x, low, high, outer)
+    return [goal.with_left(goal.left.xreplace({integral: value}))]
+
+
+def _difference(f: Expr, primitive: Expr, x: Symbol, low: Expr, high: Expr, outer: Piece) -> Expr:
+    inner = outer.inside(x, low, high)
+    f = resolved(f, inner)
+    smooth(primitive, x, inner)
+    demand(inner.is_zero(diff(primitive, x) - f), f"the derivative of {primitive} is not {f}")
+    continuous_at(primitive, x, low, outer)
+    continuous_at(primitive, x, high, outer)
+    return primitive.subs(x, high) - primitive.subs(x, low)
+
+
+def recurrence(
+    goal: Goal,
+    integral: Integral,
+    index: Symbol,
+    closed: Expr,
+    base: Expr,
+    primitive: Expr,
+    following: Expr,
+    present: Expr,
+) -> list[Goal]:
+    """Integral = closed for index 0, 1, 2, ... by induction.
+
+    ``base`` is a primitive of the integrand at index 0. ``following`` f(index + 1) + ``present`` f(index) is the
+    derivative of ``primitive``, and ``closed`` satisfies the recurrence that this gives.
+    """
+    f, x, low, high, outer, inner = _parts(goal, integral)
+    demand(index.is_integer and index.is_nonnegative, f"{index} does not run over 0, 1, 2, ...")
+    demand(not (low.has(index) or high.has(index)), "the limits depend on the index")
+    first = _difference(f.subs(index, 0), base, x, low, high, outer)
+    demand(outer.is_zero(first - closed.subs(index, 0)), f"the closed form is wrong at {index} = 0")
+    demand(outer.sign(following) in ("+", "-"), f"{following} may vanish")
+    smooth(primitive, x, inner)
+    continuous_at(primitive, x, low, outer)
+    continuous_at(primitive, x, high, outer)
+    stepped = following * f.subs(index, index + 1) + present * f
+    demand(inner.is_zero(diff(primitive, x) - stepped), "the step is not the derivative of its primitive")
+    ends = primitive.subs(x, high) - primitive.subs(x, low)
+    gap = following * closed.subs(index, index + 1) + present * closed - ends
+    demand(outer.is_zero(gap), "the closed form does not satisfy the recurrence")
+    return [goal.with_left(goal.left.xreplace({integral: closed}))]
+
+
+def telescope(goal: Goal, total: Sum, primitive: Expr) -> list[Goal]:
+    """A sum whose terms are differences of neighbours: the sum from a to b of F(j) - F(j - 1) is F(b) - F(a - 1)."""
+    demand(occurs(total, goal.left), f"{total} does not occur")
+    demand(len(total.limits) == 1, f"{total} is not over one index")
+    j, low, high = total.limits[0]
+    gap = total.function - (primitive - primitive.subs(j, j - 1))
+    demand(goal.piece.is_zero(gap), f"{total.function} is not the difference of {primitive}")
+    value = primitive.subs(j, high) - primitive.subs(j, low - 1)
+    return [goal.with_left(goal.left.xreplace({total: value}))]
+
+
+def diverges(goal: Goal, integral: Integral, minorant: Expr, strength: Expr, order: int, end: str) -> list[Goal]:
+    """The left side is +oo: a term's integrand lies above ``minorant``, whose own integral is infinite.
+
+    With d the distance to the end in question, the minorant is strength d^(-1 - order), strength > 0: its primitive
+    is unbounded. Every other term is an integral of something not negative, or finite.
+    """
+    f, x, low, high, outer, inner = _parts(goal, integral)
+    demand(goal.right == oo, "the claim is not that the quantity is infinite")
+    demand(end in ("low", "high"), "the end is either low or high")
+    demand(order >= 0, "an integrable minorant proves nothing")
+    distance = x - low if end == "low" else high - x
+    demand(outer.sign(high - low) == "+", "the interval may be empty")
+    demand(not strength.has(x) and outer.sign(strength) == "+", f"{strength} is not shown to be positive")
+    primitive = log(distance) if order == 0 else -(distance ** (-order)) / order
+    growth = strength * diff(primitive, x) * (1 if end == "low" else -1)
+    demand(inner.is_zero(growth - minorant), f"{minorant} is not {strength} times a power of the distance")
+    f = branch(f, x, low, high, outer)
+    demand(inner.sign(f - minorant) in ("+", ">=", "0"), f"{f} is not shown to lie above {minorant}")
+    for term in Add.make_args(goal.left):
+        factor, rest = term.as_independent(Integral, as_Add=False)
+        demand(outer.sign(factor) in ("+", ">=", "0") or not term.has(Integral), f"{factor} may be negative")
+        if rest == integral:
+            demand(outer.sign(factor) == "+", f"{factor} may vanish")
+        elif term.has(Integral):
+            other = Goal(rest, goal.right, goal.piece)
+            g, y, a, b, around, _ = _parts(other, rest)
+            demand(
+                around.inside(y, a, b).sign(branch(g, y, a, b, around)) in ("+", ">=", "0"),
+                f"{rest} may be negative",
+            )
+    return []
+
+
+__all__ = ["antiderivative", "diverges", "exchange", "linear", "recurrence", "split", "substitute", "telescope"]

@@ -1,0 +1,173 @@
+"""What a source says, as data: the two sides that are tested, where they should meet, and how that is shown.
+
+A claim carries no verdict. `verify.py` earns one.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from sympy import Expr, latex, sympify
+
+from xsec_sym.proof.domain import Domain, domain
+
+KINDS = ("equation", "definition", "statement", "whole", "out-of-scope")
+
+
+@dataclass
+class Claim:
+    id: str
+    source: str
+    section: str
+    label: str
+    title: str
+    kind: str
+    left: Expr
+    printed: Expr | None
+    corrected: Expr | None
+    domain: Domain
+    edit: str = ""
+    reading: str = ""
+    reduces: tuple[str, ...] = ()
+    parts: tuple[str, ...] = ()
+    points: Mapping[Any, Any] = field(default_factory=dict)
+    module: str = ""
+    prove: Callable[[Any], None] | None = None
+
+    @property
+    def form(self) -> Expr:
+        """The side that is held to be right: what is printed, unless something else holds instead."""
+        chosen = self.printed if self.corrected is None else self.corrected
+        if chosen is None:
+            raise ValueError(f"{self.id} has neither a printed nor a corrected form")
+        return chosen
+
+    def proof(self, script: Callable[[Any], None]) -> Callable[[Any], None]:
+        """Decorator: the script that shows left = form, move by move."""
+        self.prove = script
+        return script
+
+    def latex(self) -> str:
+        """What the source prints, set from the very objects that are tested."""
+        left = latex(self.left)
+        return left if self.printed is None else f"{left} = {latex(self.printed)}"
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex()}$"
+
+
+REGISTRY: dict[str, Claim] = {}
+
+
+class Source:
+    """One document, one section of it, and the claims it makes, in its own order.
+
+    >>> from sympy import Symbol
+    >>> from xsec_sym.proof import Source, interval
+    >>> u = Symbol("u", real=True)
+    >>> paper = Source("example", section="1")
+    >>> square = paper.claim("1", "a square", left=(u + 1) ** 2, printed=u**2 + 2 * u + 1, where=[interval(u, -1, 1)])
+    >>> square.id
+    'example:1'
+    """
+
+    def __init__(self, key: str, *, section: str = "") -> None:
+        self.key, self.section = key, section
+        self.claims: list[Claim] = []
+        frame = inspect.currentframe()
+        caller = frame.f_back.f_globals if frame and frame.f_back else {}
+        self.module = caller["__spec__"].name if caller.get("__spec__") else caller.get("__name__", "")
+
+    def _add(self, label: str, title: str, **rest: Any) -> Claim:
+        claim = Claim(id=f"{self.key}:{label}", source=self.key, section=self.section, label=label, title=title,
+                      module=self.module, **rest)  # fmt: skip
+        earlier = REGISTRY.get(claim.id)
+        if earlier is not None and earlier.module not in (claim.module, "__main__"):
+            raise ValueError(f"{claim.id} is claimed twice: in {earlier.module} and in {claim.module}")
+        if any(c.label == label for c in self.claims):
+            raise ValueError(f"{claim.id} is claimed twice in {claim.module}")
+        self.claims.append(claim)
+        REGISTRY[claim.id] = claim
+        return claim
+
+    def claim(
+        self,
+        label: str,
+        title: str,
+        *,
+        left: Any,
+        printed: Any = None,
+        corrected: Any = None,
+        edit: str = "",
+        where: Iterable[Any] = (),
+        instances: Mapping[Any, Iterable[Any]] | None = None,
+        reading: str = "",
+        reduces: Iterable[str] = (),
+        points: Mapping[Any, Any] | None = None,
+        statement: bool = False,
+    ) -> Claim:
+        """An equation: ``left`` from the definitions, ``printed`` as it stands in the source.
+
+        ``printed`` is None for a blank that is filled; ``corrected`` holds where the print does not, ``edit`` says
+        in words what to change. ``reading`` names the normalisation and whatever the print leaves open.
+        ``reduces`` names equations that turn a nested ``left`` into a single integral for the enclosures; ``points``
+        lists the kinks of an outer integrand. ``statement`` marks a property told in words, judged claim-holds or -fails.
+        """
+        if printed is None and corrected is None:
+            raise ValueError(f"{self.key}:{label} says nothing: give a printed or a corrected form")
+        if printed is not None and corrected is not None and not edit:
+            raise ValueError(f"{self.key}:{label} corrects the print without saying in words what to change")
+        left = sympify(left)
+        for side in (printed, corrected):
+            if side is not None and _defined(left) & _defined(sympify(side)) and not statement:
+                shared = ", ".join(sorted(str(n) for n in _defined(left) & _defined(sympify(side))))
+                raise ValueError(f"{self.key}:{label} has {shared} on both sides, so it tests nothing")
+        return self._add(
+            label,
+            title,
+            kind="statement" if statement else "equation",
+            left=left,
+            printed=None if printed is None else sympify(printed),
+            corrected=None if corrected is None else sympify(corrected),
+            domain=domain(where, instances),
+            edit=edit,
+            reading=reading,
+            reduces=tuple(reduces),
+            points=dict(points or {}),
+        )
+
+    def definition(self, label: str, title: str, *, left: Any, printed: Any, reading: str = "") -> Claim:
+        """A display that only introduces a symbol: nothing in it could be false."""
+        return self._add(label, title, kind="definition", left=sympify(left), printed=sympify(printed),
+                         corrected=None, domain=Domain(), reading=reading)  # fmt: skip
+
+    def whole(self, label: str, title: str, parts: Iterable[str], *, left: Any, printed: Any = None,
+              reading: str = "") -> Claim:  # fmt: skip
+        """A display whose parts have verdicts of their own; it carries the worst of them."""
+        ids = tuple(f"{self.key}:{p}" for p in parts)
+        return self._add(label, title, kind="whole", left=sympify(left), corrected=None, domain=Domain(),
+                         printed=None if printed is None else sympify(printed), parts=ids,
+                         reading=reading)  # fmt: skip
+
+    def out_of_scope(self, label: str, title: str, *, because: str) -> Claim:
+        """A sentence that no computation can settle, with the reason."""
+        return self._add(label, title, kind="out-of-scope", left=sympify(0), printed=None, corrected=None,
+                         domain=Domain(), reading=because)  # fmt: skip
+
+    def __iter__(self) -> Iterator[Claim]:
+        return iter(self.claims)
+
+    def tell(self) -> None:
+        """Run every proof of this section and print it step by step, each claim with the verdict it earns."""
+        from xsec_sym.proof.tell import tell
+
+        tell(self.claims)
+
+
+def _defined(e: Expr) -> set[Expr]:
+    from sympy import preorder_traversal
+
+    return {node for node in preorder_traversal(e) if hasattr(node, "definition")}

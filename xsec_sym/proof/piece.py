@@ -1,0 +1,425 @@
+"""A connected piece of a domain, and the exact facts that hold on it.
+
+A piece answers two questions, and answers "unknown" rather than guess: which sign has this expression here,
+and is this expression zero here? Both work on the normal form of `field.py`: a polynomial in atoms.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from itertools import combinations
+from typing import Any
+
+from sympy import (
+    Add,
+    And,
+    Eq,
+    Expr,
+    Ge,
+    Gt,
+    Le,
+    Lt,
+    Mul,
+    Ne,
+    Not,
+    Or,
+    Piecewise,
+    Poly,
+    Rational,
+    S,
+    Symbol,
+    oo,
+    pi,
+    sympify,
+)
+
+from xsec_sym.proof.domain import Choices, Domain, Integers, Interval
+from xsec_sym.proof.field import Field, Unsettled
+
+Terms = dict[tuple[tuple[Symbol, int], ...], Fraction]  # monomial -> coefficient, a monomial as (atom, power) pairs
+Fact = tuple[Expr, bool]
+Sign = str | None  # "+", "-", "0", ">=" (not negative), "<=" (not positive), None: unknown
+FLIP: dict[Sign, Sign] = {"+": "-", "-": "+", "0": "0", ">=": "<=", "<=": ">=", None: None}
+
+
+def times(a: Sign, b: Sign) -> Sign:
+    if "0" in (a, b):
+        return "0"
+    if a is None or b is None:
+        return None
+    strict = a in "+-" and b in "+-"
+    positive = (a in ("+", ">=")) == (b in ("+", ">="))
+    return ("+" if positive else "-") if strict else (">=" if positive else "<=")
+
+
+def plus(a: Sign, b: Sign) -> Sign:
+    if a == "0":
+        return b
+    if b == "0":
+        return a
+    if a is None or b is None:
+        return None
+    up_a, up_b = a in ("+", ">="), b in ("+", ">=")
+    if up_a != up_b:
+        return None
+    strict = a in "+-" or b in "+-"
+    return ("+" if strict else ">=") if up_a else ("-" if strict else "<=")
+
+
+def terms_of(polynomial: Poly) -> Terms:
+    found: Terms = {}
+    for powers, coefficient in polynomial.terms():
+        if coefficient:
+            monomial = tuple((g, k) for g, k in zip(polynomial.gens, powers, strict=True) if k)
+            found[monomial] = Fraction(int(coefficient.p), int(coefficient.q))
+    return found
+
+
+def expression_of(terms: Terms) -> Expr:
+    return Add(*(Rational(c.numerator, c.denominator) * Mul(*(g**k for g, k in m)) for m, c in terms.items()))
+
+
+class Piece:
+    """Facts about real variables: each an expression with the knowledge that it is > 0 (strict) or >= 0."""
+
+    def __init__(
+        self,
+        facts: Iterable[Fact] = (),
+        ranges: Iterable[Interval] = (),
+        local: Iterable[tuple[tuple[Any, ...], Fact]] = (),
+        parent: Piece | None = None,
+    ) -> None:
+        self.facts: tuple[Fact, ...] = tuple((sympify(e), strict) for e, strict in facts)
+        self.ranges = tuple(ranges)
+        self.local = tuple(local)  # facts that hold between the limits of one integral only: ((x, low, high), fact)
+        self.field = Field(self, parent.field if parent else None)
+        self.known: list[tuple[Terms, bool]] = list(parent.known) if parent else []
+        self._signs: dict[Expr, Sign] = dict(parent._signs) if parent else {}
+        self._polynomial_signs: dict[frozenset[Any], Sign] = dict(parent._polynomial_signs) if parent else {}
+        self._products: list[tuple[Terms, bool]] | None = None
+        self._inner: dict[Any, Piece] = {}
+        for expression, strict in self.facts[len(parent.facts) if parent else 0 :]:
+            self._learn(expression, strict)
+
+    @classmethod
+    def of(cls, domain: Domain) -> Piece:
+        """The whole domain as a piece; an integer variable must already be written by its index."""
+        facts: list[tuple[Expr, bool]] = []
+        for variable in domain.variables:
+            if isinstance(variable, Interval):
+                facts += variable.facts()
+            elif isinstance(variable, Integers | Choices):
+                continue
+        for condition in domain.conditions:
+            facts += relation_facts(condition)
+        return cls(facts, [v for v in domain.variables if isinstance(v, Interval)])
+
+    def extended(self, facts: Iterable[Fact], ranges: Iterable[Interval] = ()) -> Piece:
+        return Piece((*self.facts, *facts), (*self.ranges, *ranges), self.local, self)
+
+    def inside(self, x: Symbol, low: Expr, high: Expr) -> Piece:
+        """The piece with an integration variable strictly between its limits."""
+        inner = Interval(x, sympify(low), sympify(high), True, True)
+        limits = (x, inner.low, inner.high)
+        if limits not in self._inner:
+            known = [fact for where, fact in self.local if where == limits]
+            self._inner[limits] = self.extended([*inner.facts(), *known], [inner])
+        return self._inner[limits]
+
+    def noting(self, limits: tuple[Any, ...], fact: tuple[Expr, bool]) -> Piece:
+        """The piece with a fact that holds between the given limits of an integral."""
+        return Piece(self.facts, self.ranges, (*self.local, (limits, fact)), self)
+
+    def substituted(self, symbol: Symbol, value: Expr) -> Piece:
+        facts = [(e.subs(symbol, value), strict) for e, strict in self.facts]
+        here = [(tuple(a.subs(symbol, value) for a in limits), (f[0].subs(symbol, value), f[1]))
+                for limits, f in self.local if symbol not in limits]
+        return Piece([f for f in facts if f[0].free_symbols or not f[0].is_positive], [r for r in self.ranges if r.symbol != symbol], here)
+
+    def without(self, index: int) -> Piece:
+        """The piece without one of its facts, to ask whether the others contradict it."""
+        return Piece(self.facts[:index] + self.facts[index + 1 :], self.ranges, self.local)
+
+    def facts_about(self, symbol: Symbol) -> bool:
+        return any(e.has(symbol) for e, _ in self.facts)
+
+    # --- zero --------------------------------------------------------------------------------------
+
+    def is_zero(self, expression: Expr) -> bool:
+        """True only where the normal form is exactly zero; False means "not shown"."""
+        try:
+            numerator, _ = self.field.fraction(expression)
+        except Unsettled:
+            return False
+        return numerator.is_zero
+
+    def normal(self, expression: Expr) -> Expr:
+        return self.field.expression(expression)
+
+    # --- signs -------------------------------------------------------------------------------------
+
+    def sign(self, expression: Expr) -> Sign:
+        expression = sympify(expression)
+        if expression not in self._signs:
+            self._signs[expression] = None  # a question that comes back to itself has no answer
+            self._signs[expression] = self._sign(expression)
+        return self._signs[expression]
+
+    def _sign(self, expression: Expr) -> Sign:
+        if expression.is_Rational:
+            return "+" if expression > 0 else "-" if expression < 0 else "0"
+        if expression.is_Mul:
+            product: Sign = "+"
+            for factor in expression.args:
+                product = times(product, self.sign(factor))
+            if product is not None:
+                return product
+        if not expression.free_symbols:
+            return _constant_sign(expression)
+        if isinstance(expression, Piecewise):
+            return self._sign_of_branches(expression)
+        try:
+            numerator, denominator = self.field.fraction(expression)
+        except Unsettled:
+            return None
+        if numerator.is_zero:
+            return "0"
+        return times(self.sign_of_factors(numerator), self.sign_of_factors(denominator))
+
+    def _sign_of_branches(self, e: Piecewise) -> Sign:
+        """The sign that all branches share, each judged where its condition holds."""
+        found: set[Sign] = set()
+        for value, condition in e.args:
+            facts = relation_facts(condition)
+            for (gap, strict), (big, small) in zip(facts, _both_sides(condition), strict=True):
+                if self.sign(big) in ("+", ">=") and self.sign(small) in ("+", ">="):
+                    facts = [*facts, (gap * (big + small), strict)]
+            found.add(self.extended([(f.expand(), strict) for f, strict in facts]).sign(value))
+        if found <= {"+", ">=", "0"}:
+            return "+" if found == {"+"} else ">="
+        return ("-" if found == {"-"} else "<=") if found <= {"-", "<=", "0"} else None
+
+    def sign_of_factors(self, polynomial: Poly) -> Sign:
+        whole = self.sign_of_polynomial(polynomial)
+        if whole in ("+", "-"):
+            return whole
+        constant, factors = polynomial.factor_list()
+        result: Sign = "+" if constant > 0 else "-"
+        for factor, multiplicity in factors:
+            here = self.sign_of_polynomial(factor)
+            if multiplicity % 2 == 0:
+                here = "+" if here in ("+", "-") else "0" if here == "0" else ">="
+            result = times(result, here)
+        return result or whole
+
+    def sign_of_polynomial(self, f: Poly) -> Sign:
+        """The sign of a polynomial in atoms, from its terms or from the facts."""
+        terms = terms_of(f)
+        key = frozenset(terms.items())
+        if key not in self._polynomial_signs:
+            self._polynomial_signs[key] = self._sign_of_terms(f, terms)
+        return self._polynomial_signs[key]
+
+    def _sign_of_terms(self, f: Poly, terms: Terms) -> Sign:
+        weak: Sign = None
+        for answer in (
+            lambda: self._sign_by_terms(terms),
+            lambda: self._sign_by_fact(terms),
+            lambda: self._sign_by_roots(f),
+            lambda: self._sign_above(terms),
+            lambda: FLIP[self._sign_above({m: -c for m, c in terms.items()})],
+        ):
+            here = answer()
+            if here in ("+", "-", "0"):
+                return here
+            weak = weak or here
+        return weak
+
+    def _sign_by_terms(self, terms: Terms) -> Sign:
+        total: Sign = "0"
+        for monomial, coefficient in terms.items():
+            term: Sign = "+" if coefficient > 0 else "-"
+            for atom, power in monomial:
+                here = self.field.sign_of_atom(atom)
+                if power % 2 == 0:
+                    here = "+" if here in ("+", "-") else "0" if here == "0" else ">="
+                term = times(term, here)
+            total = plus(total, term)
+            if total is None:
+                return None
+        return total
+
+    def _sign_by_fact(self, terms: Terms) -> Sign:
+        weak: Sign = None
+        for g, strict in self.known:
+            if g.keys() == terms.keys():
+                first = next(iter(g))
+                ratio = terms[first] / g[first]
+                if all(terms[m] == ratio * c for m, c in g.items()):
+                    if strict:
+                        return "+" if ratio > 0 else "-"
+                    weak = ">=" if ratio > 0 else "<="
+        return weak
+
+    def _sign_by_roots(self, f: Poly) -> Sign:
+        """One variable between rational bounds: count the real roots exactly."""
+        atoms = f.free_symbols
+        if len(atoms) != 1:
+            return None
+        (x,) = atoms
+        low, low_open, high, high_open = self.bounds_of(x)
+        if low is None and high is None:
+            return None
+        g = Poly(f.as_expr(), x)
+        at_ends = [(end, is_open) for end, is_open in ((low, low_open), (high, high_open)) if end is not None]
+        zeros = [is_open for end, is_open in at_ends if g.eval(end) == 0]
+        if g.count_roots(low, high) > len(zeros):
+            return None
+        if low is not None and high is not None:
+            middle = (low + high) / 2
+        else:
+            middle = low + 1 if low is not None else high - 1
+        positive = g.eval(middle) > 0
+        if all(zeros):
+            return "+" if positive else "-"
+        return ">=" if positive else "<="
+
+    def bounds_of(self, x: Symbol) -> tuple[Any, bool, Any, bool]:
+        """The tightest rational bounds that the facts give a symbol: low, excluded?, high, excluded?"""
+        low = high = None
+        low_open = high_open = True
+        one = ((x, 1),)
+        for g, strict in self.known:
+            if one in g and all(m in (one, ()) for m in g):
+                root = -g.get((), Fraction(0)) / g[one]
+                end = Rational(root.numerator, root.denominator)
+                if g[one] > 0 and (low is None or end > low or (end == low and strict)):
+                    low, low_open = end, strict
+                elif g[one] < 0 and (high is None or end < high or (end == high and strict)):
+                    high, high_open = end, strict
+        return low, low_open, high, high_open
+
+    def _sign_above(self, f: Terms, depth: int = 2) -> Sign:
+        """f = c g + (something not negative), with g a fact or a product of two facts and c > 0."""
+        weak: Sign = None
+        for g, strict in [*self.known, *self.field.bounds_of_atoms(), *(self._fact_products() if depth == 2 else [])]:
+            for c in {f[m] / k for m, k in g.items() if m in f and (f[m] > 0) == (k > 0)}:
+                rest = dict(f)
+                for m, k in g.items():
+                    left = rest.pop(m, Fraction(0)) - c * k
+                    if left:
+                        rest[m] = left
+                sign = self._sign_by_terms(rest) if rest else "0"
+                if sign is None and depth == 2 and len(rest) < len(f) + len(g):
+                    sign = self._sign_above(rest, depth=1)
+                if sign == "+" or (strict and sign in ("0", ">=")):
+                    return "+"
+                if sign in ("0", ">="):
+                    weak = ">="
+        return weak
+
+    def _fact_products(self) -> list[tuple[Terms, bool]]:
+        if self._products is None:
+            self._products = []
+            for (a, strict_a), (b, strict_b) in combinations(self.known, 2):
+                product = terms_of(self.field.reduced(expression_of(a) * expression_of(b)))
+                if product:
+                    self._products.append((product, strict_a and strict_b))
+        return self._products
+
+    def _learn(self, expression: Expr, strict: bool) -> None:
+        try:
+            numerator, denominator = self.field.fraction(expression)
+        except Unsettled:
+            return
+        below = self.sign_of_factors(denominator)
+        if below in ("+", "-") and not numerator.is_zero:
+            new = (terms_of(numerator if below == "+" else -numerator), strict)
+            if new not in self.known:
+                self.known.append(new)
+                self._forget()
+
+    def _forget(self) -> None:
+        """A new fact may answer what was unknown; what is known stays known."""
+        strict = ("+", "-", "0")
+        self._signs = {k: v for k, v in self._signs.items() if v in strict}
+        self._polynomial_signs = {k: v for k, v in self._polynomial_signs.items() if v in strict}
+        self._products = None
+        self.field.forget()
+
+    def _sign_by_squares(self, gap: Expr, left: Expr, right: Expr) -> Sign:
+        """The sign of left - right (or of right - left, whichever gap is) where both lie on one side of 0."""
+        signs = {self.sign(left), self.sign(right)}
+        squares = self.sign(left**2 - right**2)
+        turned = FLIP[squares] if gap != left - right else squares
+        if signs <= {"+", ">=", "0"}:
+            return turned
+        return FLIP[turned] if signs <= {"-", "<=", "0"} else None
+
+    def decide(self, condition: Expr) -> bool | None:
+        """A condition's truth value on the whole piece, or None."""
+
+        if condition in (S.true, S.false):
+            return bool(condition)
+        if isinstance(condition, Not):
+            inner = self.decide(condition.args[0])
+            return None if inner is None else not inner
+        if isinstance(condition, And | Or):
+            parts = [self.decide(c) for c in condition.args]
+            decisive = isinstance(condition, Or)
+            if decisive in parts:
+                return decisive
+            return None if None in parts else not decisive
+        if isinstance(condition, Eq | Ne):
+            sign = self.sign(condition.lhs - condition.rhs)
+            equal = True if sign == "0" else False if sign in ("+", "-") else None
+            return equal if isinstance(condition, Eq) or equal is None else not equal
+        facts = relation_facts(condition)
+        if not facts:
+            return None
+        ((expression, strict),) = facts
+        sign = self.sign(expression)
+        if sign not in ("+", "-"):
+            sign = self._sign_by_squares(expression, condition.lhs, condition.rhs) or sign
+        if sign == "+" or (not strict and sign in ("0", ">=")):
+            return True
+        if sign == "-" or (strict and sign in ("0", "<=")):
+            return False
+        return None
+
+
+def relation_facts(condition: Expr) -> list[tuple[Expr, bool]]:
+    """What an inequality says, as (expression, strict); other conditions say nothing usable."""
+    if isinstance(condition, And):
+        return [fact for c in condition.args for fact in relation_facts(c)]
+    if isinstance(condition, Gt | Ge):
+        return [(condition.lhs - condition.rhs, isinstance(condition, Gt))]
+    if isinstance(condition, Lt | Le):
+        return [(condition.rhs - condition.lhs, isinstance(condition, Lt))]
+    return []
+
+
+def _both_sides(condition: Expr) -> list[tuple[Expr, Expr]]:
+    """The larger and the smaller side of each inequality in a condition."""
+    if isinstance(condition, And):
+        return [pair for c in condition.args for pair in _both_sides(c)]
+    if isinstance(condition, Gt | Ge):
+        return [(condition.lhs, condition.rhs)]
+    return [(condition.rhs, condition.lhs)] if isinstance(condition, Lt | Le) else []
+
+
+def _constant_sign(expression: Expr) -> Sign:
+    """The sign of a constant, by a ball that excludes zero."""
+    if expression == 0:
+        return "0"
+    if expression in (oo, pi):
+        return "+"
+    from xsec_sym.proof.balls import NoEnclosure, enclose
+
+    try:
+        ball = enclose(expression, 20)
+    except NoEnclosure:
+        return None
+    return "+" if ball > 0 else "-" if ball < 0 else None
+

@@ -1,0 +1,354 @@
+"""The moves of a proof. Each takes a goal and its data, checks what it must, and returns the goals that are left.
+
+A goal is "left = right on this piece". A rule that cannot be checked raises `Refused`; none asks an oracle, none
+looks at a float. Everything here is decided by `Piece.sign` and `Piece.is_zero`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
+
+from sympy import (
+    Abs,
+    Add,
+    Expr,
+    Heaviside,
+    Integral,
+    Max,
+    Min,
+    Piecewise,
+    Pow,
+    Symbol,
+    acos,
+    asin,
+    atanh,
+    diff,
+    log,
+    oo,
+    preorder_traversal,
+    sign,
+)
+from sympy.logic.boolalg import Boolean
+
+from xsec_sym.proof.domain import Choices, Domain, Integers, Interval
+from xsec_sym.proof.field import Unsettled
+from xsec_sym.proof.piece import Piece, plus
+
+SWITCHES = (Abs, Heaviside, Max, Min, Piecewise, sign)
+
+
+class Refused(Exception):
+    """A step that does not follow, with the reason as a sentence."""
+
+
+@dataclass(frozen=True)
+class Goal:
+    left: Expr
+    right: Expr
+    piece: Piece
+    conditions: tuple[Boolean, ...] = ()
+
+    def with_left(self, left: Expr) -> Goal:
+        # SymPy folds a Piecewise out of nested integrals together with the inner variable: that is not the same thing
+        demand(left.free_symbols <= self.left.free_symbols, f"{left} would set a bound variable free")
+        return replace(self, left=left)
+
+
+class Proven(Protocol):
+    """What a lemma offers: left = form on a domain."""
+
+    id: str
+    left: Expr
+    domain: Domain
+
+    @property
+    def form(self) -> Expr: ...
+
+
+def demand(truth: bool, sentence: str) -> None:
+    if not truth:
+        raise Refused(sentence)
+
+
+# --- the pieces of a domain ---------------------------------------------------------------------------
+
+
+def start(left: Expr, right: Expr, where: Domain) -> Goal:
+    """The opening goal: integer variables written by their index, the domain's facts on the table."""
+    index = {v.symbol: v.member(v.index) for v in where.variables if isinstance(v, Integers)}
+    left, right = left.subs(index), right.subs(index)
+    conditions = tuple(c.subs(index) for c in where.conditions)
+    reals = tuple(v for v in where.variables if isinstance(v, Interval))
+    return Goal(left, right, Piece.of(Domain(reals, conditions)), conditions)
+
+
+def cases(goal: Goal, on: Expr, symbol: Symbol, root: Expr, slope: Expr) -> list[Goal]:
+    """Three goals: on > 0, on < 0, and on = 0, which is symbol = root, since on = slope (symbol - root)."""
+    above = replace(goal, piece=goal.piece.extended([(on, True)]))
+    below = replace(goal, piece=goal.piece.extended([(-on, True)]))
+    demand(goal.piece.is_zero(on - slope * (symbol - root)), f"{on} is not a multiple of {symbol - root}")
+    demand(goal.piece.sign(slope) in ("+", "-"), f"{on} may vanish elsewhere than at {symbol} = {root}")
+
+    def at_root(e: Expr) -> Expr:
+        return e.subs(symbol, root)
+
+    equal = Goal(
+        at_root(goal.left),
+        at_root(goal.right),
+        goal.piece.substituted(symbol, root),
+        tuple(at_root(c) for c in goal.conditions),
+    )
+    return [above, below, equal]
+
+
+def vacuous(goal: Goal) -> list[Goal]:
+    """No point of the domain lies on this piece: one of its conditions, or of its facts, is false there."""
+    conditions = any(goal.piece.decide(c) is False for c in goal.conditions)
+    signs = [(goal.piece.without(k).sign(e), strict) for k, (e, strict) in enumerate(goal.piece.facts)]
+    facts = any(s == "-" or (strict and s in ("0", "<=")) for s, strict in signs)
+    demand(conditions or facts, "nothing shows that this piece is empty")
+    return []
+
+
+def fact(
+    goal: Goal,
+    expression: Expr,
+    terms: list[Expr],
+    inner: list[Any] | None = None,
+    proven: Proven | None = None,
+    mapping: dict[Symbol, Expr] | None = None,
+) -> list[Goal]:
+    """expression is the sum of terms whose signs show and agree; so its own sign is known from here on.
+
+    ``inner`` = (x, low, high): a fact about an integrand, between the limits of that integral only. Where a lemma is
+    named, each term shows its sign once the lemma's left side is read as its right side.
+    """
+    piece = goal.piece.inside(*inner) if inner else goal.piece
+    demand(piece.is_zero(expression - Add(*terms)), f"{expression} is not shown to be the sum of {terms}")
+    here: Any = "0"
+    for term in terms:
+        if proven is not None:
+            (shown,) = lemma(Goal(term, goal.right, piece), proven, mapping or {})
+            term = shown.left
+        here = plus(here, piece.sign(term))
+    demand(here in ("+", "-", ">=", "<="), f"the signs of {terms} do not show, or differ")
+    new = (expression if here in ("+", ">=") else -expression, here in ("+", "-"))
+    piece = goal.piece.noting(tuple(inner), new) if inner else goal.piece.extended([new])
+    return [replace(goal, piece=piece)]
+
+
+# --- equations ----------------------------------------------------------------------------------------
+
+
+def unfold(goal: Goal) -> list[Goal]:
+    """Replace every defined object by its definition, on both sides."""
+    return [replace(goal, left=unfolded(goal.left), right=unfolded(goal.right))]
+
+
+def occurs(part: Expr, whole: Expr) -> bool:
+    return any(node == part for node in preorder_traversal(whole))
+
+
+def swap(goal: Goal) -> list[Goal]:
+    """Work on the other side: an equation may be read from right to left."""
+    return [replace(goal, left=goal.right, right=goal.left)]
+
+
+def nest(goal: Goal, integral: Integral) -> list[Goal]:
+    """A repeated integral as an integral over an integral, factors free of the inner variables drawn out."""
+    demand(occurs(integral, goal.left) and len(integral.limits) > 1, f"{integral} is not a repeated integral in the goal")
+    *inner, last = integral.limits
+    outside, inside = integral.function.as_independent(*(limit[0] for limit in inner), as_Add=False)
+    demand(not any(e.has(limit[0]) for limit in inner for e in last[1:]), "an outer limit depends on the inner variable")
+    return [goal.with_left(goal.left.xreplace({integral: Integral(outside * Integral(inside, *inner), last)}))]
+
+
+def unfolded(e: Expr) -> Expr:
+    while True:
+        found = {node: node.definition() for node in set(_nodes(e))}
+        if not found:
+            return e
+        e = e.xreplace(found)
+
+
+def _nodes(e: Expr) -> Iterable[Expr]:
+    return (n for n in preorder_traversal(e) if hasattr(n, "definition"))
+
+
+def rewrite(goal: Goal, old: Expr, new: Expr) -> list[Goal]:
+    """Replace a part by an equal one; under an integral, equal on the open interval of integration."""
+    demand(occurs(old, goal.left), f"{old} does not occur")
+    for piece in contexts(goal, old):
+        demand(piece.is_zero(old - new), f"{old} and {new} are not shown to be equal")
+    return [goal.with_left(goal.left.xreplace({old: new}))]
+
+
+def settle(goal: Goal) -> list[Goal]:
+    """Take the branch of each switch outside the integrals that the facts select, on both sides."""
+    return [replace(goal, left=resolved(goal.left, goal.piece), right=resolved(goal.right, goal.piece))]
+
+
+def close(goal: Goal) -> list[Goal]:
+    demand(
+        goal.left == goal.right or goal.piece.is_zero(goal.left - goal.right),
+        f"{goal.left} and {goal.right} are not shown to be equal",
+    )
+    return []
+
+
+def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr]) -> list[Goal]:
+    """Replace the left side of an equation that holds by its right side, inside the lemma's own domain."""
+    index = {v.symbol: v.member(v.index) for v in proven.domain.variables if isinstance(v, Integers)}
+    mapping = {**{v: k for v, k in index.items() if v not in mapping}, **mapping}
+    for v in proven.domain.variables:
+        if isinstance(v, Integers):
+            count = (mapping[v.symbol] - v.low) / v.step
+            demand(bool(count.is_integer and count.is_nonnegative), f"{mapping[v.symbol]} is not in {v.text()}")
+    old = proven.left.subs(mapping, simultaneous=True)
+    new = proven.form.subs(mapping, simultaneous=True)
+    demand(occurs(old, goal.left), f"the left side of {proven.id}, {old}, does not occur")
+    for piece in contexts(goal, old):
+        for variable in proven.domain.variables:
+            if isinstance(variable, Choices):
+                demand(mapping[variable.symbol] in variable.values, f"{variable.text()} is not met")
+            elif isinstance(variable, Interval):
+                for bound, strict in variable.facts():
+                    here = piece.sign(bound.subs(mapping, simultaneous=True))
+                    demand(here == "+" or (not strict and here in (">=", "0")), f"{variable.text()} is not shown")
+        for condition in proven.domain.conditions:
+            held = piece.decide(condition.subs(mapping, simultaneous=True))
+            demand(held is True, f"{proven.id} assumes {condition}, which is not shown here")
+    return [goal.with_left(goal.left.xreplace({old: new}))]
+
+
+def contexts(goal: Goal, part: Expr) -> list[Piece]:
+    """The pieces in which a part of the left side stands: the goal's own, inside the integrals around it."""
+    found: list[Piece] = []
+
+    def visit(e: Expr, piece: Piece) -> None:
+        if e == part:
+            found.append(piece)
+            return
+        if not occurs(part, e):
+            return
+        if isinstance(e, Integral):
+            for x, low, high in reversed(e.limits):
+                visit(low, piece)
+                visit(high, piece)
+                piece = piece.inside(x, low, high)
+            visit(e.function, piece)
+            return
+        for a in e.args:
+            visit(a, piece)
+
+    visit(goal.left, goal.piece)
+    return found
+
+
+# --- differential equations ---------------------------------------------------------------------------
+
+
+def ode(goal: Goal, x: Symbol, coefficients: list[Expr], at: Expr) -> list[Goal]:
+    """y = left - right satisfies sum c_i y^(i) = 0 on an interval and vanishes with its derivatives at one point."""
+    gap = resolved(goal.left, goal.piece) - resolved(goal.right, goal.piece)
+    demand(not gap.has(Integral), "an equation under an integral sign cannot be differentiated here")
+    connected(goal.piece, x)
+    smooth(gap, x, goal.piece)
+    demand(goal.piece.sign(coefficients[-1]) in ("+", "-"), "the leading coefficient may vanish")
+    total = Add(*(c * diff(gap, x, k) for k, c in enumerate(coefficients)))
+    demand(goal.piece.is_zero(total), "the difference of the two sides does not satisfy the equation")
+    here = goal.piece.substituted(x, at)
+    for r in (r for r in goal.piece.ranges if r.symbol == x):
+        for bound, _ in r.facts():
+            demand(here.sign(bound.subs(x, at)) == "+", f"{x} = {at} is not inside the interval")
+    for k in range(len(coefficients) - 1):
+        demand(here.is_zero(diff(gap, x, k).subs(x, at)), f"derivative {k} of the difference at {x} = {at} is not 0")
+    return []
+
+
+def connected(piece: Piece, x: Symbol) -> None:
+    """Whatever the piece says about x must describe an interval: bounds, each linear in x."""
+    for e, _ in piece.facts:
+        if e.has(x):
+            demand(diff(e, x, 2) == 0, f"the condition {e} > 0 may cut the range of {x} into several pieces")
+
+
+# --- regularity ---------------------------------------------------------------------------------------
+
+
+def resolved(e: Expr, piece: Piece) -> Expr:
+    """Every switch outside the integrands replaced by the branch that the facts select."""
+    if not e.has(*SWITCHES):
+        return e
+    if isinstance(e, Integral):
+        return Integral(e.function, *((x, *(resolved(end, piece) for end in ends)) for x, *ends in e.limits))
+    if isinstance(e, SWITCHES):
+        try:
+            return resolved(piece.field.settled(e), piece)
+        except Unsettled as reason:
+            raise Refused(str(reason)) from reason
+    return e.func(*(resolved(a, piece) for a in e.args))
+
+
+def smooth(e: Expr, x: Symbol, piece: Piece) -> None:
+    """e is analytic in x on the open piece: no root or logarithm of what may vanish, no quotient by it."""
+    _critical(e, lambda a: piece.sign(a), lambda a: a.has(x))
+
+
+def continuous_at(e: Expr, x: Symbol, end: Expr, outer: Piece) -> None:
+    """e is continuous up to x = end."""
+    demand(end not in (oo, -oo), "an infinite end needs a change of variables first")
+    _critical(e, lambda a: outer.sign(a.subs(x, end)), lambda _: False)
+
+
+def _critical(e: Expr, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], bool]) -> None:
+    for node in preorder_traversal(e):
+        allowed = ("+",) if strict(node) else ("+", ">=", "0")
+        if isinstance(node, Pow) and not node.exp.is_nonnegative:
+            demand(sign_of(node.base) in ("+", "-"), f"{node.base} may vanish in a denominator")
+            if not node.exp.is_integer:
+                demand(sign_of(node.base) == "+", f"{node.base} may be negative under a root")
+        elif isinstance(node, Pow) and not node.exp.is_integer and node.base.free_symbols:
+            demand(sign_of(node.base) in allowed, f"{node.base} may be negative under a root")
+        elif isinstance(node, log):
+            demand(sign_of(node.args[0]) == "+", f"the logarithm of {node.args[0]} may not be real")
+        elif isinstance(node, acos | asin):
+            z = node.args[0]
+            inside = sign_of(1 - z**2) in allowed or all(sign_of(gap) in allowed for gap in (1 - z, 1 + z))
+            demand(inside, f"{node} may leave the range of the inverse")
+        elif isinstance(node, atanh):
+            for gap in (1 - node.args[0], 1 + node.args[0]):
+                demand(sign_of(gap) == "+", f"{node} may be infinite")
+        elif isinstance(node, SWITCHES):
+            raise Refused(f"{node} is not settled")
+        elif hasattr(node, "definition") or isinstance(node, Integral):
+            raise Refused(f"{node} is not an explicit function")
+
+
+__all__ = [
+    "Goal",
+    "Proven",
+    "Refused",
+    "cases",
+    "close",
+    "connected",
+    "contexts",
+    "continuous_at",
+    "demand",
+    "fact",
+    "lemma",
+    "nest",
+    "occurs",
+    "ode",
+    "resolved",
+    "rewrite",
+    "settle",
+    "smooth",
+    "start",
+    "swap",
+    "unfold",
+    "unfolded",
+    "vacuous",
+]

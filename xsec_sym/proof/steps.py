@@ -1,0 +1,215 @@
+"""Writing a proof: a cursor on a goal. Each method makes one checked move and writes it into the certificate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from sympy import Expr, Integral, Sum, Symbol, preorder_traversal, sympify
+
+from xsec_sym.proof import wire
+from xsec_sym.proof.checker import FORMAT, Certificate, apply, opening
+from xsec_sym.proof.claim import Claim
+from xsec_sym.proof.rules import Goal, Refused
+
+
+class Step:
+    """The goal that is left, and the moves made so far."""
+
+    def __init__(self, goal: Goal, claims: Mapping[str, Claim], told: list[tuple[int, str]], depth: int = 0) -> None:
+        self.goal: Goal | None = goal
+        self.claims, self.told, self.depth = claims, told, depth
+        self.moves: list[Any] = []
+
+    # --- reading the goal --------------------------------------------------------------------------
+
+    @property
+    def left(self) -> Expr:
+        return self._open().left
+
+    @property
+    def right(self) -> Expr:
+        return self._open().right
+
+    @property
+    def integrals(self) -> list[Integral]:
+        """The integrals of the left side that stand inside no other, in order of appearance."""
+        found: list[Integral] = []
+        walk = preorder_traversal(self.left)
+        for node in walk:
+            if isinstance(node, Integral):
+                walk.skip()
+                if node not in found:
+                    found.append(node)
+        return found
+
+    def over(self, low: Any, high: Any) -> Integral:
+        """The integral of the left side between two limits."""
+        for found in self.integrals:
+            if found.limits[0][1:] == (sympify(low), sympify(high)):
+                return found
+        raise Refused(f"there is no integral from {low} to {high} in {self.left}")
+
+    def _open(self) -> Goal:
+        if self.goal is None:
+            raise Refused("this branch of the proof is already closed")
+        return self.goal
+
+    def _integral(self, chosen: Integral | int | None) -> Integral:
+        if isinstance(chosen, Integral):
+            return chosen
+        found = self.integrals
+        if not found:
+            raise Refused(f"no integral is left in {self.left}")
+        return found[chosen or 0]
+
+    # --- moves -------------------------------------------------------------------------------------
+
+    def _move(self, name: str, said: str, **data: Any) -> Step:
+        goals = apply(self._open(), name, data, self.claims)
+        self.moves.append([name, wire.encode(data)])
+        self.told.append((self.depth, said))
+        self.goal = goals[0] if goals else None
+        return self
+
+    def cases(self, on: Any, symbol: Symbol | None = None, root: Any = None, slope: Any = 1) -> Iterator[Step]:
+        """Three branches, in this order: on > 0, on < 0, on = 0 (symbol = root, as on = slope (symbol - root))."""
+        on = sympify(on)
+        if symbol is None:
+            if not on.is_Symbol:
+                raise Refused(f"say at which symbol = root {on} vanishes")
+            symbol, root = on, 0
+        data = {"on": on, "symbol": symbol, "root": sympify(root), "slope": sympify(slope)}
+        goals = apply(self._open(), "cases", data, self.claims)
+        record: list[Any] = ["cases", wire.encode(data)]
+        self.moves.append(record)
+        self.goal = None
+        for goal, word in zip(goals, ("> 0", "< 0", "= 0"), strict=True):
+            self.told.append((self.depth, f"where {on} {word}:"))
+            branch = Step(goal, self.claims, self.told, self.depth + 1)
+            yield branch
+            branch.finish()
+            record.append(branch.moves)
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether it shows that no point of the domain lies on this piece."""
+        try:
+            apply(self._open(), "vacuous", {}, self.claims)
+        except Refused:
+            return False
+        return True
+
+    def vacuous(self) -> Step:
+        return self._move("vacuous", "no point of the domain lies here")
+
+    def fact(self, expression: Any, *terms: Any, inside: tuple[Any, ...] = (), by: Claim | str | None = None,
+             mapping: Mapping[Any, Any] | None = None) -> Step:  # fmt: skip
+        """Note a sign, shown by equal terms whose signs agree; without terms, the expression shows it itself."""
+        chosen = terms or (expression,)
+        said = f"the sign of {expression} is that of {' + '.join(f'({t})' for t in chosen)}"
+        data = {"expression": sympify(expression), "terms": [sympify(t) for t in chosen],
+                "inner": [sympify(i) for i in inside]}  # fmt: skip
+        if by is not None:
+            data |= {"proven": by if isinstance(by, str) else by.id,
+                     "mapping": {sympify(k): sympify(v) for k, v in (mapping or {}).items()}}  # fmt: skip
+        return self._move("fact", said, **data)
+
+    def unfold(self) -> Step:
+        return self._move("unfold", "write out the definitions")
+
+    def swap(self) -> Step:
+        return self._move("swap", "now the other side")
+
+    def nest(self, integral: Integral | int | None = None) -> Step:
+        return self._move("nest", "one integration at a time", integral=self._integral(integral))
+
+    def rewrite(self, old: Any, new: Any, because: str = "") -> Step:
+        said = f"{old} = {new}" + (f" ({because})" if because else "")
+        return self._move("rewrite", said, old=sympify(old), new=sympify(new))
+
+    def settle(self) -> Step:
+        return self._move("settle", "take the branches that hold here")
+
+    def lemma(self, proven: Claim | str, mapping: Mapping[Any, Any] | None = None) -> Step:
+        name = proven if isinstance(proven, str) else proven.id
+        filled = {sympify(k): sympify(v) for k, v in (mapping or {}).items()}
+        at = ", ".join(f"{k} = {v}" for k, v in filled.items() if k != v)
+        return self._move("lemma", f"by {name}" + (f" with {at}" if at else ""), proven=name, mapping=filled)
+
+    def ode(self, x: Symbol, coefficients: Iterable[Any], at: Any) -> Step:
+        listed = [sympify(c) for c in coefficients]
+        said = f"the difference solves a linear equation of order {len(listed) - 1} in {x} and starts from 0 at {at}"
+        return self._move("ode", said, x=x, coefficients=listed, at=sympify(at))
+
+    def split(self, *points: Any, integral: Integral | int | None = None) -> Step:
+        chosen = self._integral(integral)
+        where = f" at {', '.join(map(str, points))}" if points else ""
+        return self._move("split", f"cut the integral over {chosen.limits[0][0]}{where}", integral=chosen,
+                          points=[sympify(p) for p in points])  # fmt: skip
+
+    def linear(self, *terms: Any, integral: Integral | int | None = None) -> Step:
+        chosen = self._integral(integral)
+        return self._move("linear", f"integrate term by term: {', '.join(map(str, terms))}", integral=chosen,
+                          terms=[sympify(t) for t in terms])  # fmt: skip
+
+    def exchange(self, integral: Integral | int | None = None, by: Claim | str | None = None,
+                 mapping: Mapping[Any, Any] | None = None) -> Step:  # fmt: skip
+        """Swap two integrations; ``by`` names the lemma whose right side shows the integrand's sign."""
+        said = "exchange the integrations (Tonelli: the integrand keeps one sign)"
+        chosen = self._integral(integral)
+        if by is None:
+            return self._move("exchange", said, integral=chosen)
+        filled = {sympify(k): sympify(v) for k, v in (mapping or {}).items()}
+        name = by if isinstance(by, str) else by.id
+        return self._move("exchange", f"{said}, by {name}", integral=chosen, proven=name, mapping=filled)
+
+    def substitute(self, new: Symbol, g: Any, low: Any, high: Any, integral: Integral | int | None = None) -> Step:
+        chosen = self._integral(integral)
+        return self._move("substitute", f"put {chosen.limits[0][0]} = {g}", integral=chosen, new=new, g=sympify(g),
+                          low=sympify(low), high=sympify(high))  # fmt: skip
+
+    def antiderivative(self, primitive: Any, integral: Integral | int | None = None) -> Step:
+        chosen = self._integral(integral)
+        x, low, high = chosen.limits[0]
+        return self._move("antiderivative", f"{primitive} has the derivative wanted; take it from {low} to {high}",
+                          integral=chosen, primitive=sympify(primitive))  # fmt: skip
+
+    def recurrence(self, index: Symbol, closed: Any, *, base: Any, primitive: Any, following: Any, present: Any,
+                   integral: Integral | int | None = None) -> Step:  # fmt: skip
+        said = f"by induction on {index}: ({following}) I({index} + 1) + ({present}) I({index}) from {primitive}"
+        return self._move("recurrence", said, integral=self._integral(integral), index=index, closed=sympify(closed),
+                          base=sympify(base), primitive=sympify(primitive), following=sympify(following),
+                          present=sympify(present))  # fmt: skip
+
+    def telescope(self, primitive: Any, total: Sum | None = None) -> Step:
+        chosen = total or next(iter(sorted(self.left.atoms(Sum), key=str)), None)
+        if chosen is None:
+            raise Refused(f"no sum is left in {self.left}")
+        return self._move("telescope", f"the terms are differences of {primitive}", total=chosen,
+                          primitive=sympify(primitive))  # fmt: skip
+
+    def diverges(self, minorant: Any, strength: Any, order: int = 0, end: str = "high",
+                 integral: Integral | int | None = None) -> Step:  # fmt: skip
+        said = f"the integrand lies above {minorant}, whose integral is infinite at the {end} end"
+        return self._move("diverges", said, integral=self._integral(integral), minorant=sympify(minorant),
+                          strength=sympify(strength), order=order, end=end)  # fmt: skip
+
+    def close(self) -> Step:
+        return self._move("close", "both sides are the same polynomial in the same atoms")
+
+    def finish(self) -> None:
+        """End a branch: whatever equation is left must be an identity."""
+        if self.goal is not None:
+            self.close()
+
+
+def derive(claim: Claim, claims: Mapping[str, Claim]) -> tuple[Certificate, list[tuple[int, str]]]:
+    """Run a claim's proof script. Returns its certificate, and its steps in words with their depth."""
+    told: list[tuple[int, str]] = []
+    if claim.prove is None:
+        raise Refused(f"{claim.id} has no proof script")
+    step = Step(opening(claim), claims, told)
+    claim.prove(step)
+    step.finish()
+    return {"format": FORMAT, "claim": claim.id, "moves": step.moves}, told

@@ -1,0 +1,194 @@
+"""An entry in words and formulas, for someone with the paper in hand; verdicts as lines and as a table."""
+
+from __future__ import annotations
+
+import textwrap
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from xsec_sym.record.entry import Entry
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from xsec_sym.proof.verdict import Verdict
+
+MEANING = {
+    "definition": "it introduces a symbol; nothing in it could be false",
+    "proved": "an exact proof, replayed move by move by the checker, and numerically checked",
+    "confirmed": "no symbolic proof, but enclosures of the difference contain 0 at every point tested",
+    "misprint": "the form in print is refuted; a corrected form holds",
+    "claim-holds": "the property, or the accuracy stated, holds",
+    "claim-fails": "the property, or the accuracy stated, does not hold",
+    "divergent": "the quantity is infinite there",
+    "out-of-scope": "no computation can settle it",
+    "refuted": "it is false, and nobody has mended it",
+    "inconclusive": "neither shown nor refuted",
+    "timeout": "stopped at its limit of time or memory",
+}
+WIDTH = 100
+
+
+def told(entry: Entry, ledger: Mapping[str, Entry]) -> str:
+    """The entry as text."""
+    blocks = [_head(entry)]
+    blocks += [
+        _formula(entry, name)
+        for name in ("printed", "corrected")
+        if getattr(entry, name) is not None or (name == "printed" and entry.left and entry.corrected is None)
+    ]
+    facts = [
+        ("change", entry.edit),
+        ("where", entry.domain),
+        ("reading", entry.reading),
+        ("note", entry.note),
+        ("evidence", _evidence(entry)),
+    ]
+    lines = [_field(name, text) for name, text in facts if text]
+    if entry.witness:
+        lines.append(_witness(entry.witness))
+    if lines:
+        blocks.append("\n".join(lines))
+    if entry.parts:
+        blocks.append("\n".join(["parts", *(f"  {_part(name, ledger)}" for name in entry.parts)]))
+    if entry.steps:
+        blocks.append("\n".join(["steps", *(_step(depth, said) for depth, said in entry.steps)]))
+    return "\n\n".join(blocks)
+
+
+def _head(entry: Entry) -> str:
+    place = f"section {entry.section}" if entry.section else ""
+    head = f"{entry.id}  {entry.title}" + (f"  ({entry.source}, {place})" if place else "")
+    word = entry.verdict + (f" to {entry.digits} digits" if entry.verdict == "confirmed" and entry.digits else "")
+    return f"{head}\n{word}: {MEANING[entry.verdict]}"
+
+
+def _formula(entry: Entry, name: str) -> str:
+    from sympy import pretty
+
+    try:
+        left, right = entry.side("left"), entry.side(name)
+    except (ValueError, KeyError, TypeError):
+        left = right = None
+    if left is None or (right is None and getattr(entry, name) is not None):
+        return f"{name}\n{textwrap.indent(entry.latex(name), '  ')}"
+    # side by side where that fits, one below the other where not
+    text = pretty(left, use_unicode=True, num_columns=10_000)
+    if right is not None:
+        shown = pretty(right, use_unicode=True, num_columns=10_000)
+        beside = _beside(text, shown)
+        fits = max(map(len, beside.splitlines())) <= WIDTH
+        text = beside if fits else f"{text}\n=\n{_fitting(entry, name, shown)}"
+    return f"{name}\n{textwrap.indent(text, '  ')}"
+
+
+def _fitting(entry: Entry, name: str, shown: str) -> str:
+    if max(map(len, shown.splitlines())) <= WIDTH:
+        return shown
+    # a formula wider than the page is easier to read in one line than torn into stacks
+    return textwrap.fill(str(entry.side(name)), WIDTH, break_long_words=False, break_on_hyphens=False)
+
+
+def _beside(left: str, right: str) -> str:
+    from sympy.printing.pretty.stringpict import stringPict
+
+    def picture(text: str) -> Any:
+        lines = text.splitlines()
+        return stringPict(text, len(lines) // 2)
+
+    return str(stringPict(*picture(left).right(" = ", picture(right))))
+
+
+def _field(name: str, text: str) -> str:
+    return textwrap.fill(text, WIDTH, initial_indent=f"{name:<10}", subsequent_indent=" " * 10)
+
+
+def _evidence(entry: Entry) -> str:
+    said = [
+        f"{name.replace('_', ' ')}: {_said(value)}"
+        for name, value in entry.evidence.items()
+        if value not in ([], {}, None)
+    ]
+    if entry.mutants:
+        said.append(f"{entry.mutants} altered forms rejected")
+    return "; ".join([*said, f"{entry.seconds:g} s"]) if said else ""
+
+
+def _said(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, dict):
+        return ", ".join(f"{k} {_said(v)}" for k, v in value.items())
+    return ", ".join(map(_said, value)) if isinstance(value, list) else str(value)
+
+
+def _witness(witness: Mapping[str, Any]) -> str:
+    return "\n".join(_field("fails at" if name == "point" else f"  {name}", _point(value))
+                     for name, value in witness.items())  # fmt: skip
+
+
+def _point(value: Any) -> str:
+    return ", ".join(f"{k} = {v}" for k, v in value.items()) if isinstance(value, dict) else str(value)
+
+
+def _part(name: str, ledger: Mapping[str, Entry]) -> str:
+    return f"{name}  {ledger[name].verdict}  {ledger[name].title}" if name in ledger else f"{name}  not in the record"
+
+
+def _step(depth: int, said: str) -> str:
+    indent = "  " * (depth + 1)
+    return textwrap.fill(said, WIDTH, initial_indent=indent, subsequent_indent=indent + "    ",
+                         break_long_words=False, break_on_hyphens=False)  # fmt: skip
+
+
+# --- verdicts ------------------------------------------------------------------------------------------
+
+
+def answer(verdict: Verdict) -> str:
+    """The verdict on a user's own equation."""
+    word = verdict.verdict + (
+        f" to {verdict.digits} digits" if verdict.verdict == "confirmed" and verdict.digits else ""
+    )
+    lines = [f"{word}: {MEANING[verdict.verdict]}"]
+    if verdict.witness:
+        lines.append(_witness(verdict.witness))
+    if verdict.note:
+        lines.append(_field("note", verdict.note))
+    lines += [_step(depth, said) for depth, said in verdict.steps]
+    return "\n".join(lines)
+
+
+def rows(entries: Iterable[Entry]) -> list[tuple[str, str, str, str, str]]:
+    return [
+        (e.id, e.verdict, str(e.digits or ""), str(e.mutants or ""), f"{e.seconds:.2f}" if e.seconds else "")
+        for e in entries
+    ]
+
+
+def lines(entries: Iterable[Entry]) -> list[str]:
+    """The table for a pipe: one line an entry, whatever the width of a terminal."""
+    found = rows(entries)
+    wide = max((len(r[0]) for r in found), default=0)
+    return [f"{r[0]:<{wide}}  {r[1]:<12}  {r[2]:>3}  {r[3]:>3}  {r[4]:>8}".rstrip() for r in found]
+
+
+def table(entries: Iterable[Entry]) -> Table:
+    """The table for a terminal."""
+    from rich.table import Table
+
+    made = Table(box=None, pad_edge=False)
+    for name in ("id", "verdict"):
+        made.add_column(name, no_wrap=True)
+    for name in ("digits", "mutants", "seconds"):
+        made.add_column(name, justify="right")
+    colours = {"misprint": "yellow", "claim-fails": "yellow", "refuted": "red", "inconclusive": "red", "timeout": "red"}
+    for row in rows(entries):
+        made.add_row(row[0], f"[{colours.get(row[1], 'green')}]{row[1]}[/]", *row[2:])
+    return made
+
+
+def summary(entries: Iterable[Entry]) -> list[str]:
+    """How many entries carry each verdict, best first."""
+    count = Counter(e.verdict for e in entries)
+    return [f"{count[word]:>4} {word}" for word in sorted(count, key=list(MEANING).index)]
