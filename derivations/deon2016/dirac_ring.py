@@ -297,7 +297,7 @@ def isotropic_row(step):
 
 
 D = Function("D", real=True)
-ANY = {D: (lambda v: v**2, lambda v: exp(v) * (1 + v**3), lambda v: 1 / (2 - v), lambda v: v - Abs(v) / 3)}
+INSTANCES = (lambda v: v**2, lambda v: exp(v) * (1 + v**3), lambda v: 1 / (2 - v), lambda v: v - Abs(v) / 3)
 
 superposition = paper.claim(
     "15",
@@ -305,7 +305,7 @@ superposition = paper.claim(
     left=Integral(D(x) * Max(0, facing(u_i, x)), (AZIMUTH, 0, 2 * pi), (x, -1, 1)),
     printed=Integral(RingCrossSection(x, u_i) * D(x), (x, -1, 1)),
     where=[interval(u_i, -1, 1)],
-    instances=ANY,
+    instances={D: INSTANCES},
     points={x: [-sqrt(1 - u_i**2), 0, sqrt(1 - u_i**2)]},
     reading="D per steradian and integrable, so that the order of integration does not matter (Fubini); with D per "
     "unit cosine, as in (4)-(7), the right side is to be divided by 2 pi",

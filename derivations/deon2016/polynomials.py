@@ -2,7 +2,7 @@
 
 from sympy import Abs, Function, Heaviside, Integral, pi, sqrt, symbols
 
-from derivations.deon2016.dirac_ring import ANY
+from derivations.deon2016.dirac_ring import INSTANCES
 from xsec_sym.exact import RingCrossSection, RingMean
 from xsec_sym.proof import Source, interval, parity
 
@@ -75,7 +75,7 @@ def one_half_of_the_band(step):
         branch.antiderivative(-2 * pi * u_i * u ** (2 * n + 2) / (2 * n + 2))
 
 
-D = Function("D", real=True, nonnegative=True)
+D = Function("D", real=True)
 
 even_plus_linear = paper.claim(
     "claim.even-plus-linear",
@@ -83,7 +83,7 @@ even_plus_linear = paper.claim(
     left=Integral(RingCrossSection(x, u_i) * D(x), (x, -1, 1)) - Integral(RingCrossSection(x, -u_i) * D(x), (x, -1, 1)),
     printed=2 * pi * u_i * Integral(x * D(x), (x, -1, 1)),
     where=[VIEWER],
-    instances=ANY,
+    instances={D: INSTANCES},
     reduces=CLOSED,
     points={x: [-sqrt(1 - u_i**2), 0, sqrt(1 - u_i**2)]},
     reading="of any integrable distribution with azimuthal symmetry: opposite views differ by a linear function; "

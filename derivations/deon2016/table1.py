@@ -9,6 +9,7 @@ from itertools import pairwise
 
 from sympy import Abs, Integral, Ne, Piecewise, Rational, Sum, acos, asin, binomial, log, oo, pi, sqrt, symbols
 
+from derivations.extensions.ring_lemma import shut
 from xsec_sym.exact import RingCrossSection, RingMean, RingSpread, RingTilt
 from xsec_sym.proof import Source, interval, parity
 
@@ -88,17 +89,6 @@ def spread(claim, across):
                             branch.fact(1 - u**2 - x**2, (tau - x) * (tau + x), inside=(x, low, high))
                         branch.split(-tau, tau)
                         across(branch)
-
-
-def shut(step):
-    """Whether a branch is done with: no point of the domain lies there, or the band has no width."""
-    if step.is_empty:
-        step.vacuous()
-    elif not step.goal.piece.facts_about(u):
-        step.split()
-    else:
-        return False
-    return True
 
 
 def tilt(claim, distribution, s2, finish, here=None, at_equator=lambda step: None):

@@ -12,7 +12,7 @@ from xsec_sym.proof import Source, interval
 
 project = Source("xsec", section="ring lemma")
 
-u, x, t, u_n = symbols("u x t u_n", real=True)
+u, x, y, t, u_n = symbols("u x y t u_n", real=True)
 SQUARE = [interval(x, -1, 1), interval(u, -1, 1)]
 CLOSED = ("deon2016:9", "deon2016:10", "deon2016:11", "deon2016:12")  # the ring without an integral
 AT = {u: x, u_n: u}  # the ring's first argument is the inclination x of the normals, as in Table 1
@@ -144,6 +144,44 @@ def clamp_cancels(step):
 D = Function("D", real=True, nonnegative=True)
 SEEN = {D: (lambda v: v**2, lambda v: exp(v), lambda v: 1 / (2 - v), lambda v: 1 / (1 + v**2))}
 
+tau = sqrt(1 - u**2)
+
+second = project.claim(
+    "second-component",
+    "the second component of a distribution is an integral over its band",
+    left=Integral(RingSpread(x, u) * D(x), (x, -1, 1)),
+    corrected=(1 - u**2) * Integral(2 * sqrt(1 - y**2) * D(tau * y), (y, -1, 1)),
+    where=[interval(u, -1, 1)],
+    instances=SEEN,
+    reduces=CLOSED,
+    points={x: [-tau, tau]},
+)
+
+
+@second.proof
+def band_only(step):
+    step.lemma("deon2016:11", AT)
+    for above in step.cases(1 - u, u, 1, -1):
+        if not shut(above):
+            for branch in above.cases(1 + u, u, -1):
+                if not shut(branch):
+                    branch.fact(1 - u**2, (1 - u) * (1 + u))
+                    for low, high in ((-1, -tau), (-tau, tau), (tau, 1)):
+                        branch.fact(1 - u**2 - x**2, (tau - x) * (tau + x), inside=(x, low, high))
+                    branch.split(-tau, tau).substitute(y, tau * y, -1, 1)
+
+
+def shut(step):
+    """Whether a branch is done with: no point of the domain lies there, or the band has no width."""
+    if step.is_empty:
+        step.vacuous()
+    elif not step.goal.piece.facts_about(u):
+        step.split()
+    else:
+        return False
+    return True
+
+
 distribution = project.claim(
     "ring-lemma.distribution",
     "the cross-section of a distribution, from its mean cosine and its second component",
@@ -152,7 +190,7 @@ distribution = project.claim(
     + Abs(u)
     * (
         pi * Integral(Abs(x) * D(x), (x, -1, 1))
-        + Integral(kernel * Integral(RingSpread(x, t) * D(x), (x, -1, 1)), (t, Abs(u), 1))
+        + Integral(2 / t**2 * Integral(sqrt(1 - y**2) * D(sqrt(1 - t**2) * y), (y, -1, 1)), (t, Abs(u), 1))
     ),
     where=[interval(u, -1, 1), (u > 0) | (u < 0)],
     instances=SEEN,
@@ -175,7 +213,7 @@ def superpose(step):
         first.lemma(lemma, {x: x, u: u}).settle()
         first.linear(pi * u * x * mass, distance * pi * Abs(x) * mass, distance * mass * inner)
         nested = next(i for i in first.integrals if i.has(RingSpread))
-        first.exchange(nested, by="deon2016:11", mapping={u: x, u_n: t})
+        first.exchange(nested, by="deon2016:11", mapping={u: x, u_n: t}).lemma(second, {u: t})
 
 
 if __name__ == "__main__":

@@ -80,6 +80,7 @@ class Field:
         self._signs: dict[Symbol, str | None] = dict(parent._signs) if parent else {}
         self._bounds: dict[Any, tuple[Any, bool] | None] = dict(parent._bounds) if parent else {}
         self._done: dict[Expr, Expr] = dict(parent._done) if parent else {}
+        self._fractions: dict[Expr, tuple[Poly, Poly]] = dict(parent._fractions) if parent else {}
 
     def forget(self) -> None:
         """Facts were added: signs that were unknown may be known now."""
@@ -91,8 +92,11 @@ class Field:
     # --- the three answers ---------------------------------------------------------------------------
 
     def fraction(self, expression: Expr) -> tuple[Poly, Poly]:
-        numerator, denominator = fraction(together(self.atomise(sympify(expression))))
-        top, bottom = self.reduced(numerator), self.reduced(denominator)
+        atoms = self.atomise(sympify(expression))
+        if atoms not in self._fractions:
+            numerator, denominator = fraction(together(atoms))
+            self._fractions[atoms] = self.reduced(numerator), self.reduced(denominator)
+        top, bottom = self._fractions[atoms]
         if bottom.is_zero:
             raise Unsettled(f"the denominator of {expression} vanishes identically")
         return top, bottom

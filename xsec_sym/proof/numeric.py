@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any
 
-from sympy import Add, Expr, Integral, oo, preorder_traversal, sympify
+from mpmath import workdps
+from sympy import Add, Expr, Integral, Symbol, lambdify, oo, preorder_traversal, sympify
 
 from xsec_sym.proof.balls import NoEnclosure, enclose
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.digits import NoValue, value
 from xsec_sym.proof.domain import Domain
+from xsec_sym.proof.rules import unfolded
 from xsec_sym.proof.witnesses import Point
 from xsec_sym.proof.zeros import Undecided
 
@@ -141,10 +144,9 @@ def agree_by_digits(claim: Claim, form: Expr, points: list[Point], digits: int) 
     """
     agreed = 0
     for point in points:
-        cuts: Mapping[Any, Any] = {x: [at(sympify(c), point) for c in where] for x, where in claim.points.items()}
         try:
-            left = value(at(claim.left, point), digits, points=cuts)
-            right = value(at(form, point), digits, points=cuts)
+            left = digits_of(claim, claim.left, point, digits)
+            right = digits_of(claim, form, point, digits)
         except (NoValue, Undecided):
             continue
         scale = max(abs(left), abs(right))
@@ -152,6 +154,46 @@ def agree_by_digits(claim: Claim, form: Expr, points: list[Point], digits: int) 
             return agreed, f"mpmath finds {left} against {right} at {shown(point)}"
         agreed += 1
     return agreed, ""
+
+
+@lru_cache(maxsize=4000)
+def _integral_value(integral: Expr, digits: int, cuts: tuple[Any, ...]) -> Any:
+    return value(integral, digits, points={x: list(where) for x, where in cuts})
+
+
+def digits_of(claim: Claim, e: Expr, point: Point, digits: int) -> Any:
+    """mpmath's value of an expression at a point; an integral that returns in a mutant is not done again."""
+    cuts = tuple((x, tuple(at(sympify(c), point) for c in where)) for x, where in claim.points.items())
+    here = unfolded(at(e, point))
+    found: dict[Expr, Symbol] = {}
+    walk = preorder_traversal(here)
+    for node in walk:
+        if isinstance(node, Integral):
+            walk.skip()
+            found.setdefault(node, Symbol(f"I{len(found)}"))
+    if not found:
+        return value(here, digits)
+    values = [_integral_value(node, digits + 2, cuts) for node in found]
+    with workdps(digits + 10):
+        return lambdify(list(found.values()), here.xreplace(found), "mpmath")(*values)
+
+
+def rejected_by_digits(claim: Claim, rivals: list[Expr], point: Point, wanted: int) -> int:
+    """The second route's turn where nested integrals leave no ball: how many rivals have other digits than the left."""
+    try:
+        left = digits_of(claim, claim.left, point, 8)
+    except (NoValue, *UNDEFINED):
+        return 0
+    found = 0
+    for rival in rivals:
+        try:
+            right = digits_of(claim, rival, point, 8)
+        except (NoValue, *UNDEFINED):
+            continue
+        found += bool(abs(left - right) > 1e-6 * max(abs(left), abs(right), 1e-6))
+        if found == wanted:
+            break
+    return found
 
 
 def shown(point: Point) -> dict[str, str]:

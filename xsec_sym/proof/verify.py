@@ -20,6 +20,7 @@ from xsec_sym.proof.numeric import (
     hold_against,
     is_infinite,
     reduced,
+    rejected_by_digits,
     rejects,
     shown,
     told_apart,
@@ -30,7 +31,7 @@ from xsec_sym.proof.rules import Refused
 from xsec_sym.proof.say import said
 from xsec_sym.proof.steps import derive
 from xsec_sym.proof.verdict import Verdict
-from xsec_sym.proof.witnesses import witnesses
+from xsec_sym.proof.witnesses import distance_from_bulk, witnesses
 
 WITNESSES = 20  # effective witnesses without which nothing is confirmed
 MUTANTS = 8  # different functions that the check must reject
@@ -76,7 +77,7 @@ def _verify(
         return _divergence(claim, certificate, steps, refusal, seed)
     proved, thorough = certificate is not None, count >= WITNESSES
     needed = max(12, digits // 2) if proved else digits
-    enough = WITNESSES if not proved else min(count, WITH_PROOF)
+    enough = WITNESSES if not proved else WITH_PROOF if thorough else max(1, count // 2)
     points = _points(claim, enough, seed)
     helpers = [claims[name] for name in claim.reduces if name in claims]
     trials, unreached = try_at(reduced(claim.left, helpers), points, needed)
@@ -85,8 +86,8 @@ def _verify(
     if claim.corrected is not None and claim.printed is not None:
         of_the_print = hold_against(trials, reduced(claim.printed, helpers), needed)
         if of_the_print.refuted_at is None and not thorough:
-            trials, unreached = try_at(reduced(claim.left, helpers), _points(claim, WITH_PROOF, seed), needed)
-            of_the_print = hold_against(trials, reduced(claim.printed, helpers), needed)
+            wide, _ = try_at(reduced(claim.left, helpers), _points(claim, WITH_PROOF, seed), needed)
+            of_the_print = hold_against(wide, reduced(claim.printed, helpers), needed)
         if of_the_print.refuted_at is None:
             return Verdict("inconclusive", evidence=evidence, note="a correction is offered, but the print holds")
         witness = _witness(of_the_print)
@@ -95,7 +96,8 @@ def _verify(
         return _refuted(claim, outcome, certificate, evidence)
     routes, disagreement = 0, ""
     if thorough or not proved or not trials:
-        routes, disagreement = agree_by_digits(claim, claim.form, points[:ROUTES], 10 if proved else digits)
+        chosen = sorted(points, key=lambda p: distance_from_bulk(claim.domain, p))[: ROUTES if not proved else 1]
+        routes, disagreement = agree_by_digits(claim, claim.form, chosen, 8 if proved else digits)
     evidence |= {"witnesses": outcome.held, "digits tried": needed, "mpmath": routes}
     if certificate is not None:
         evidence |= {"moves": _count(certificate["moves"]), "lemmas": sorted(lemmas(certificate["moves"]))}
@@ -103,10 +105,10 @@ def _verify(
     if short:
         return Verdict("inconclusive", evidence=evidence, certificate=certificate, steps=steps, note=short)
     killed = 0
-    if trials and (thorough or not proved):
-        tried = _mutation(claim, trials, helpers, needed, seed)
+    if thorough or not proved:
+        tried = _mutation(claim, trials, outcome.held > 0, helpers, needed, seed)
         killed, evidence["mutants equal to the form"] = tried.killed, tried.equal
-        evidence["witnesses"] = len(trials)
+        evidence["witnesses"] = max(outcome.held, len(trials) if outcome.held else 0)
         if tried.survivors or killed < MUTANTS:
             note = f"only {killed} mutants could be tried"
             if tried.survivors:
@@ -169,16 +171,20 @@ def _shortfall(outcome: Outcome, unreached: list[str], enough: int, routes: int,
     return "" if routes else "mpmath has no second opinion to give"
 
 
-def _mutation(claim: Claim, trials: list[Trial], helpers: list[Claim], digits: int, seed: int) -> Mutation:
+def _mutation(
+    claim: Claim, trials: list[Trial], enclosed: bool, helpers: list[Claim], digits: int, seed: int
+) -> Mutation:
     """Try to fool the check. Where a mutant slips through, look for a point that tells it from the form and make that
     point a witness too: the check grows until it rejects the mutant, or no point tells the two apart."""
     result = Mutation()
     more: list[Any] = []
+    unreached: list[Expr] = []
     left, form = reduced(claim.left, helpers), reduced(claim.form, helpers)
     for mutant in mutants(claim.form, _reals(claim)):
         rival = reduced(mutant, helpers)
-        verdict = rejects(trials, rival)
+        verdict = rejects(trials, rival) if enclosed else None
         if verdict is None:
+            unreached.append(mutant)
             continue
         if not verdict:
             more = more or _points(claim, 2 * WITNESSES, seed + 1)
@@ -193,7 +199,13 @@ def _mutation(claim: Claim, trials: list[Trial], helpers: list[Claim], digits: i
                 continue
             trials += added
         result.killed += 1
+    if result.killed < MUTANTS:
+        result.killed += rejected_by_digits(claim, unreached, _easiest(claim, seed), MUTANTS - result.killed)
     return result
+
+
+def _easiest(claim: Claim, seed: int) -> Any:
+    return min(_points(claim, WITH_PROOF, seed), key=lambda p: distance_from_bulk(claim.domain, p))
 
 
 def _reals(claim: Claim) -> list[Symbol]:

@@ -188,3 +188,18 @@ def _both_sides(variable: Interval, edge: Expr, point: Point) -> list[Point]:
     return near
 
 
+
+
+def distance_from_bulk(domain: Domain, point: Point) -> float:
+    """How far a point lies from the easy middle of each half range: small where quadrature has little trouble."""
+    total = 0.0
+    point = {k: v for k, v in point.items() if isinstance(v, Expr)}
+    for variable in domain.variables:
+        if isinstance(variable, Interval):
+            low, high = sympify(variable.low).subs(point), sympify(variable.high).subs(point)
+            if low.is_finite and high.is_finite:
+                share = float((point[variable.symbol] - low) / (high - low))
+                total += abs(abs(share - 0.5) - 0.25)
+        elif isinstance(variable, Integers):
+            total += float(point[variable.symbol]) / 100
+    return total

@@ -150,7 +150,8 @@ def answer(verdict: Verdict) -> str:
     word = verdict.verdict + (
         f" to {verdict.digits} digits" if verdict.verdict == "confirmed" and verdict.digits else ""
     )
-    lines = [f"{word}: {MEANING[verdict.verdict]}"]
+    meaning = "the two sides differ" if verdict.verdict == "refuted" else MEANING[verdict.verdict]
+    lines = [f"{word}: {meaning}"]
     if verdict.witness:
         lines.append(_witness(verdict.witness))
     if verdict.note:

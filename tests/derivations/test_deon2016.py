@@ -1,0 +1,100 @@
+"""What the paper's forms and the project's corrections are, as plain text: a tool that changes one is noticed."""
+
+from __future__ import annotations
+
+import pytest
+from sympy import Integral, Symbol, symbols
+
+from derivations.deon2016 import dirac_ring, polynomials, scope, table1
+from derivations.extensions import ring_lemma
+from xsec_sym import ledger
+from xsec_sym.exact import RingCrossSection
+from xsec_sym.proof.claim import REGISTRY
+from xsec_sym.proof.say import said
+from xsec_sym.proof.verdict import SETTLED
+
+MODULES = (scope, dirac_ring, polynomials, table1, ring_lemma)
+ROWS = "1 u u2 u4 even odd inv1p inv1m inv1m2 inv1pu2".split()
+COLUMNS = "s1 s2 s3 s".split()
+
+# id -> (verdict, the form that holds)
+GOLDEN = {
+    "deon2016:7": ("proved", "u/2 + Abs(u)/2"),
+    "deon2016:14": ("proved", "pi"),
+    "deon2016:16": ("proved", "2*pi*u_i/(2 + p)"),
+    "deon2016:17": ("proved", "pi*Abs(u_i)/(1 + p/2)"),
+    "deon2016:18": ("misprint", "pi*(-1)**(p/2)*(-1 + u_i**2)**(1 + p/2)*Abs(u_i)/(1 + p/2)"),
+    "deon2016:T1.1.s3": ("misprint", "pi*(-Abs(u) + u**2)"),
+    "deon2016:T1.1.s": ("proved", "pi"),
+    "deon2016:T1.u2.s3": ("misprint", "-pi*(-3*u**2 + 2*Abs(u) + u**4)/4"),
+    "deon2016:T1.u4.s": ("proved", "-pi*(-3 - 6*u**2 + u**4)/24"),
+    "deon2016:T1.odd.s": ("proved", "2*pi*u/(2 + p)"),
+    "deon2016:T1.inv1p.s2": ("misprint", "2*pi*(1 - Abs(u))"),
+    "deon2016:T1.inv1p.s.pos": ("proved", "2*pi*(1 - u*log(1 + 1/u))"),
+    "deon2016:T1.inv1p.s.zero": ("proved", "2*pi"),
+    "deon2016:T1.inv1p.s.neg": ("divergent", "oo"),
+    "deon2016:T1.inv1m.s.pos": ("divergent", "oo"),
+    "deon2016:T1.inv1m2.s2.pos": ("proved", "2*pi*(-1 + 1/u)"),
+    "deon2016:T1.inv1m2.s2.neg": ("misprint", "2*pi*(-1 + 1/Abs(u))"),
+    "deon2016:T1.inv1m2.s2.zero": ("divergent", "oo"),
+    "deon2016:T1.inv1pu2.s1": ("misprint", "pi*log(2)*Abs(u)"),
+    "deon2016:T1.inv1pu2.s2": ("proved", "2*pi*(-1 + sqrt(2 - u**2))"),
+    "xsec:ring-odd-part": ("proved", "2*pi*u*x"),
+}
+
+
+@pytest.mark.parametrize("name", GOLDEN)
+def test_the_form_that_holds_and_its_verdict(name):
+    verdict, form = GOLDEN[name]
+    assert said(REGISTRY[name].form) == form
+    assert ledger[name].verdict == verdict
+
+
+def test_every_equation_and_cell_has_an_entry_and_none_is_open():
+    wanted = [f"deon2016:{k}" for k in range(1, 19)] + ["deon2016:8.piecewise", "deon2016:claim.even-plus-linear"]
+    wanted += [f"deon2016:T1.{row}.{column}" for row in ROWS for column in COLUMNS]
+    wanted += ["xsec:ring-lemma", "deon2016:claim.figure-1"]
+    for name in wanted:
+        assert ledger[name].verdict in SETTLED, name
+
+
+def test_the_record_is_of_these_derivations():
+    claimed = {c.id for m in MODULES for c in (m.project if m is ring_lemma else m.paper)}
+    assert claimed <= set(ledger)
+
+
+@pytest.mark.parametrize("name", [n for n in REGISTRY if n.startswith(("deon2016:", "xsec:"))])
+def test_proved_forms_met_enough_mutants(name):
+    entry = ledger[name]
+    if entry.verdict in ("proved", "confirmed", "misprint", "claim-holds"):
+        assert entry.mutants >= 8
+
+
+def test_a_misprint_shows_where_the_print_fails():
+    misprints = [e for e in ledger.values() if e.verdict == "misprint" and not e.parts]
+    assert len(misprints) >= 12
+    for entry in misprints:
+        assert entry.witness and entry.edit and entry.printed and entry.corrected, entry.id
+
+
+def test_the_columns_add_up():
+    """s = s1 + s2 + s3 in every row that is finite throughout."""
+    u, p = Symbol("u", real=True), Symbol("p", integer=True, nonnegative=True)
+    for row in ("1", "u", "u2", "u4", "odd", "inv1pu2"):
+        forms = [REGISTRY[f"deon2016:T1.{row}.{c}"].form for c in COLUMNS]
+        for value in (0.3, -0.8):
+            s1, s2, s3, s = (float(f.subs(p, 3).subs(u, value)) for f in forms)
+            assert s1 + s2 + s3 == pytest.approx(s, abs=1e-12), row
+
+
+def test_the_even_row_is_the_series_of_the_absolute_value():
+    """For p = 2n the cross-section is that of |u|, cut off: the truncated row tends to 2 pi |u| / (p + 2)."""
+    u, p = Symbol("u", real=True), Symbol("p", integer=True, nonnegative=True)
+    form = REGISTRY["deon2016:T1.even.s"].form
+    value = form.subs(p, 40).doit().subs(u, 0.9).evalf()
+    assert float(value) == pytest.approx(2 * 3.141592653589793 / 42 * 0.9, rel=1e-12)
+
+
+def test_a_cell_integrates_the_definition():
+    u, x = symbols("u x", real=True)
+    assert REGISTRY["deon2016:T1.u2.s"].left == Integral(RingCrossSection(x, u) * x**2, (x, -1, 1))

@@ -1,0 +1,285 @@
+"""From names to a module: which entries each rests on, its docstring, and all that it needs in one text."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
+from typing import Any
+
+from xsec_sym.export.kernel import VERIFIED, Branch, Refusal, branches, core, named, python_names
+from xsec_sym.export.measure import largest
+from xsec_sym.export.printer import Unprintable
+from xsec_sym.export.recipes import GENERATED, RECIPES, Recipe
+from xsec_sym.export.source import Cutting, Entangled, joined
+from xsec_sym.record.entry import Entry
+from xsec_sym.record.store import Ledger, nearest
+
+DTYPES = ("float64", "float32", None)
+KERNELS = "xsec_sym.kernels"
+WIDTH = 120
+# Points for a function that is exported once; the generated kernels are measured at more.
+QUICK = 300
+Record = Mapping[str, Entry]
+Errors = tuple[float, float]
+
+
+@cache
+def recorded() -> Ledger:
+    return Ledger()
+
+
+# --- what there is ---------------------------------------------------------------------------------------
+
+
+def available(record: Record | None = None) -> dict[str, str]:
+    """Everything that `module` exports, with a line on each.
+
+    >>> available()["sigma_power"]
+    'cross-section of D(x) = x^p, p = 0 to 200 (Table 1)'
+    """
+    record = recorded() if record is None else record
+    found = {r.name: r.summary for r in RECIPES.values() if all(_stands(record, name) for name in r.ids)}
+    for entry in record.values():
+        try:
+            _branches(entry, record)
+        except Refusal:
+            continue
+        found[entry.id] = entry.title
+    return found
+
+
+def names() -> list[str]:
+    """The lines of `available`, as a terminal shows them."""
+    found = available()
+    wide = max(map(len, found), default=0)
+    return [f"{name:{wide}}  {said}" for name, said in found.items()]
+
+
+def _stands(record: Record, name: str) -> bool:
+    return name in record and record[name].verdict in VERIFIED | {"divergent"}
+
+
+def _entry(record: Record, name: str) -> Entry:
+    try:
+        return record[name]
+    except KeyError:
+        raise Refusal(f"there is nothing to export by the name {name}{nearest(name, [*RECIPES, *record])}") from None
+
+
+def _branches(entry: Entry, record: Record) -> list[Branch]:
+    """The branches of an entry, with variables that are Python names."""
+    parts: list[Entry] = []
+    if entry.kind == "whole":
+        parts = [_entry(record, p) for p in entry.parts]
+        sides = {p.id.removeprefix(entry.id) for p in parts}
+        if not sides <= {".neg", ".zero", ".pos"}:
+            raise Refusal(f"{entry.id} is a display of several equations; export its parts {', '.join(entry.parts)}")
+    found = branches(entry, parts)
+    symbols = python_names(dict.fromkeys(s for b in found for s in b.domain.symbols))
+    return [named(b, symbols) for b in found]
+
+
+# --- generated functions -----------------------------------------------------------------------------------
+
+
+def written(name: str, entry: Entry, record: Record, recipe: Recipe | None = None, errors: Errors | None = None) -> str:
+    """The source of a generated function and its private parts. Errors are measured where none are given."""
+    found = _branches(entry, record)
+    try:
+        body = core(name, found)
+    except Unprintable as error:
+        raise Refusal(f"{entry.id} cannot be exported: {error}") from error
+    arguments = [s.name for s in found[0].domain.symbols]
+    if errors is None:
+        errors = largest(executable(name, body, arguments), found, QUICK)
+    said = _docstring(name, entry, record, found, recipe, errors, body)
+    return body + "\n\n" + _public(name, arguments, said)
+
+
+def _public(name: str, arguments: Sequence[str], said: str) -> str:
+    typed = ", ".join(f"{a}: np.typing.ArrayLike" for a in arguments)
+    passed = ", ".join(f"{a}={a}" for a in arguments)
+    return (
+        f"def {name}({typed}) -> np.ndarray | np.floating:\n"
+        f"{textwrap.indent(said, '    ', lambda line: bool(line.strip()))}\n"
+        f"    return elementwise(_{name}, {passed})\n"
+    )
+
+
+def executable(name: str, body: str, arguments: Sequence[str]) -> Any:
+    """The function, ready to be called."""
+    import numpy as np
+
+    from xsec_sym.kernels._support import elementwise
+
+    space: dict[str, Any] = {"np": np, "elementwise": elementwise}
+    exec(body + "\n\n" + _public(name, arguments, '"""."""'), space)
+    return space[name]
+
+
+def _docstring(
+    name: str, entry: Entry, record: Record, found: Sequence[Branch], recipe: Recipe | None, errors: Errors, body: str
+) -> str:
+    arguments = [s.name for s in found[0].domain.symbols]
+    shapes = ", of shapes that broadcast" if len(arguments) > 1 else ", of any shape"
+    if recipe:
+        title, more, ranges = recipe.title, recipe.about, "u: cosine in [-1, 1]"
+    else:
+        infinite = ", ".join(sorted({b.domain.text() for b in found if b.form.is_infinite}))
+        title = f"{entry.title[:1].upper()}{entry.title[1:]}."
+        more = f"{entry.reading}. " * bool(entry.reading) + f"Infinite for {infinite}." * bool(infinite)
+        ranges = f"{', '.join(arguments)}: real numbers, {_where(found)}"
+    bounds = ""
+    if any(b.within.conditions for b in found):
+        bounds = " So may arguments within a rounding error of a bound that depends on others."
+    semantics = (
+        f"{ranges}{shapes}. Anything else, NaN included, gives NaN.{bounds} float32 for float32 arguments, float64 "
+        "otherwise. TypeError for arguments that are no real numbers"
+    )
+    semantics += ", ValueError for shapes that do not broadcast." if len(arguments) > 1 else "."
+    basis = (
+        f"{verdicts(entry, record)}. Largest error found: {errors[0]:g} ulp in float64, {errors[1]:g} ulp in float32."
+    )
+    # a long title becomes a paragraph of its own below a short one
+    head = [title] if len(title) <= WIDTH - 7 else [f"The verified form of {entry.id}.", _filled(title)]
+    paragraphs = [*head, *(_filled(text) for text in (more, semantics, basis) if text)]
+    if recipe:
+        result = eval(recipe.example, {name: executable(name, body, arguments)})
+        paragraphs.append(f">>> {recipe.example}\n{result!r}")
+    return _quoted("\n\n".join(paragraphs))
+
+
+def _quoted(text: str) -> str:
+    said = text.strip().replace("\\", "/").replace('"', "'")
+    return f'"""{said}\n"""'
+
+
+def _filled(text: str) -> str:
+    return textwrap.fill(text, WIDTH - 4, break_long_words=False, break_on_hyphens=False)
+
+
+def _where(found: Sequence[Branch]) -> str:
+    return " or ".join(dict.fromkeys(b.within.text().replace("; ", ", ") for b in found))
+
+
+def verdicts(entry: Entry, record: Record) -> str:
+    """The ids that a function rests on, each with its verdict."""
+    if entry.kind == "whole":
+        return ", ".join(f"`{p}` ({_verdict(record[p])})" for p in entry.parts)
+    return f"`{entry.id}` ({_verdict(entry)})"
+
+
+def _verdict(entry: Entry) -> str:
+    return "misprint, corrected" if entry.verdict == "misprint" else entry.verdict
+
+
+# --- whole modules -------------------------------------------------------------------------------------------
+
+
+def kernel_module(module: str, record: Record, errors: Mapping[str, Errors]) -> str:
+    """A generated module of kernels."""
+    recipes = [r for r in RECIPES.values() if r.module == module]
+    for recipe in recipes:
+        _verified(recipe, record)
+    head = (
+        f'"""{GENERATED[module]}\n\n'
+        "Generated from the record of verified equations by `python -m xsec_sym.export`: do not edit.\n"
+        '"""\n\nimport numpy as np\n\nfrom xsec_sym.kernels._support import elementwise\n'
+    )
+    parts = [written(r.name, _entry(record, r.cell), record, r, errors.get(r.name)) for r in recipes]
+    return "\n\n".join([head, *parts])
+
+
+def remeasured(record: Record) -> dict[str, Errors]:
+    """The largest errors of all generated kernels, as they are on this machine."""
+    found: dict[str, Errors] = {}
+    for recipe in RECIPES.values():
+        if recipe.cell:
+            parts = _branches(_entry(record, recipe.cell), record)
+            arguments = [s.name for s in parts[0].domain.symbols]
+            found[recipe.name] = largest(executable(recipe.name, core(recipe.name, parts), arguments), parts)
+    return found
+
+
+def _verified(recipe: Recipe, record: Record) -> list[Entry]:
+    entries = [_entry(record, name) for name in recipe.ids]
+    for entry in entries:
+        if not _stands(record, entry.id):
+            raise Refusal(f"{recipe.name} rests on {entry.id}, which is not verified: its verdict is {entry.verdict}")
+    return entries
+
+
+def function_name(name: str) -> str:
+    """The name of the function for an entry.
+
+    >>> function_name("deon2016:T1.inv1p.s2")
+    'deon2016_t1_inv1p_s2'
+    """
+    word = re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_").lower()
+    return word if word[:1].isalpha() else f"f_{word}"
+
+
+def module(wanted: Iterable[str], dtype: str | None = "float64", record: Record | None = None) -> str:
+    """One self-contained module with the functions asked for: names of `available`, or ids of the record.
+
+    "float64" computes in double and, as the kernels do, answers float32 for float32; "float32" answers float32 whatever
+    the arguments are. Raises `Refusal` for what is unknown, not verified, or no closed form of real variables.
+
+    >>> print(module(["sigma_inv1pi"]))
+    Traceback (most recent call last):
+    ...
+    xsec_sym.export.kernel.Refusal: there is nothing to export by the name sigma_inv1pi; did you mean sigma_inv1p...
+    """
+    if dtype not in DTYPES:
+        raise Refusal(f"{dtype} is no dtype to export for; there are float32 and float64")
+    wanted = list(dict.fromkeys(wanted))
+    if not wanted:
+        raise Refusal("name at least one function or equation to export")
+    record = recorded() if record is None else record
+    cells = {r.cell: r.name for r in RECIPES.values() if r.cell}
+    cut = Cutting(single=dtype == "float32")
+    told: dict[str, str] = {}
+    try:
+        for name in dict.fromkeys(cells.get(name, name) for name in wanted):
+            if name in RECIPES:
+                recipe = RECIPES[name]
+                basis = _verified(recipe, record)
+                cut.take(f"{KERNELS}.{recipe.module}", name)
+                told[name] = f"{recipe.summary}; " + ", ".join(f"{e.id} {_verdict(e)}" for e in basis)
+            else:
+                entry = _entry(record, name)
+                public = function_name(name)
+                if public in told:
+                    raise Refusal(f"two of the names asked for become the function {public}")
+                text = _covered(public, entry, record)
+                head = "import numpy as np\n\nfrom xsec_sym.kernels._support import elementwise\n\n\n"
+                cut.add(f"entry {name}", head + text, public)
+                told[public] = f"{entry.title}; {verdicts(entry, record).replace('`', '')}"
+    except Entangled as error:
+        raise Refusal(f"this cannot be made one module: {error}") from error
+    return _header(told, cut, dtype) + joined(cut.texts())
+
+
+def _covered(public: str, entry: Entry, record: Record) -> str:
+    try:
+        return written(public, entry, record)
+    except Refusal as refusal:
+        by = [r.name for r in RECIPES.values() if entry.id in r.ids and not r.cell]
+        if by and _stands(record, entry.id):
+            raise Refusal(f"{refusal}; export {by[0]}, which rests on it") from refusal
+        raise
+
+
+def _header(told: Mapping[str, str], cut: Cutting, dtype: str | None) -> str:
+    from xsec_sym import __version__
+
+    needs = "NumPy and scipy.special" if cut.needs_scipy else "NumPy"
+    result = "float32, whatever the arguments are" if dtype == "float32" else "float32 for float32, float64 otherwise"
+    lines = [f"Exported by xsec_sym {__version__}. Imports {needs} only; results are {result}.", ""]
+    for name, said in told.items():
+        lines += textwrap.wrap(f"{name}: {said}", WIDTH, subsequent_indent="    ", break_on_hyphens=False)
+    imports = "\n".join(cut.imports())
+    apart = "\n" if cut.texts()[0].startswith(("#", "_", *"ABCDEFGHIJKLMNOPQRSTUVWXYZ")) else "\n\n"
+    return f"{_quoted(chr(10).join(lines))}\n\n{imports}\n{apart}"
