@@ -4,8 +4,24 @@ The paper's D(u) is normalised per unit cosine in (5) and (7), while the ring fa
 steradian over the whole circle: the two differ by 2 pi. Each claim names its reading.
 """
 
-from sympy import Abs, And, DiracDelta, Function, Heaviside, Integral, Max, Or, Piecewise, Symbol, acos, cos, exp, pi
-from sympy import sin, sqrt, symbols
+from sympy import (
+    Abs,
+    And,
+    DiracDelta,
+    Function,
+    Heaviside,
+    Integral,
+    Max,
+    Or,
+    Piecewise,
+    acos,
+    cos,
+    exp,
+    pi,
+    sin,
+    sqrt,
+    symbols,
+)
 
 from xsec_sym.exact import AZIMUTH, RingCrossSection, RingMean, RingSpread, RingTilt, facing
 from xsec_sym.proof import Source, interval
@@ -157,10 +173,12 @@ tilt = paper.claim(
     "third component: the mean cosine over the visible arc, less the first component",
     left=RingTilt(u, u_n),
     printed=Piecewise(
-        (2 * u * u_n * acos(-u * u_n / (sqrt(1 - u**2) * sqrt(1 - u_n**2))) - 2 * pi * u * u_n * Heaviside(u * u_n),
-         Abs(u) < sqrt(1 - u_n**2)),
+        (
+            2 * u * u_n * acos(-u * u_n / (sqrt(1 - u**2) * sqrt(1 - u_n**2))) - 2 * pi * u * u_n * Heaviside(u * u_n),
+            Abs(u) < sqrt(1 - u_n**2),
+        ),
         (0, True),
-    ),  # fmt: skip
+    ),
     where=SQUARE,
     reading=PER_STERADIAN,
 )

@@ -67,7 +67,6 @@ part_of_the_third = paper.claim(
 @part_of_the_third.proof
 def one_half_of_the_band(step):
     """The step keeps the half of the band on the viewer's side."""
-    tau = sqrt(1 - u_i**2)
     for branch in step.cases(u_i):
         if not branch.goal.piece.facts_about(u_i):
             continue

@@ -7,7 +7,7 @@ is a sum. Cells that are finite seen from one side and infinite from the other a
 
 from itertools import pairwise
 
-from sympy import Abs, Integral, Ne, Piecewise, Rational, Sum, acos, asin, binomial, log, oo, pi, sqrt, symbols
+from sympy import Abs, Integral, Ne, Piecewise, Rational, Sum, asin, binomial, log, oo, pi, sqrt, symbols
 
 from derivations.extensions.ring_lemma import shut
 from xsec_sym.exact import RingCrossSection, RingMean, RingSpread, RingTilt
@@ -42,7 +42,8 @@ def cell(row, column, distribution, printed=None, corrected=None, where=SPHERE, 
     viewer = 0 if side == "zero" else u
     return paper.claim(
         f"T1.{row}.{column}" + (f".{side}" if side else ""),
-        f"Table 1: {distribution}, column {column}" + (f", u {dict(neg='< 0', zero='= 0', pos='> 0')[side]}" if side else ""),
+        f"Table 1: {distribution}, column {column}"
+        + (f", u {dict(neg='< 0', zero='= 0', pos='> 0')[side]}" if side else ""),
         left=Integral(COMPONENT[column](x, viewer) * distribution, (x, -1, 1)),
         printed=printed,
         corrected=corrected,
@@ -139,10 +140,21 @@ def truncated(order, of=y):
 
 
 s1_even = cell("even", "s1", x**p, 2 * pi / (p + 2) * u, 2 * pi / (p + 2) * Abs(u), edit=BARS, parity=EVEN)
-s2_even = cell("even", "s2", x**p, parity=EVEN,
-    printed=(-1) ** (p / 2 + 1) * pi * binomial(p, p / 2) * 2 ** (-p) / (p / 2 + 1) * (-1 + u**2) ** (p / 2 + 1))  # fmt: skip
-s3_even = cell("even", "s3", x**p, parity=EVEN,
-    corrected=2 * pi / (p + 2) * (truncated(p / 2) - Abs(u)) - pi * binomial(p, p / 2) / 2**p / (p / 2 + 1) * y ** (p / 2 + 1))  # fmt: skip
+s2_even = cell(
+    "even",
+    "s2",
+    x**p,
+    printed=(-1) ** (p / 2 + 1) * pi * binomial(p, p / 2) * 2 ** (-p) / (p / 2 + 1) * (-1 + u**2) ** (p / 2 + 1),
+    parity=EVEN,
+)
+s3_even = cell(
+    "even",
+    "s3",
+    x**p,
+    corrected=2 * pi / (p + 2) * (truncated(p / 2) - Abs(u))
+    - pi * binomial(p, p / 2) / 2**p / (p / 2 + 1) * y ** (p / 2 + 1),
+    parity=EVEN,
+)
 s_even = cell("even", "s", x**p, parity=EVEN, corrected=2 * pi / (p + 2) * truncated(p / 2))
 
 mean(s1_even, x ** (2 * n + 2) / (2 * n + 2))
@@ -264,8 +276,8 @@ special(cell("u", "s", x, 2 * pi / 3 * u), s_odd, 1)
 
 special(cell("u2", "s1", x**2, pi / 2 * u, pi / 2 * Abs(u), edit=BARS), s1_even, 2)
 special(cell("u2", "s2", x**2, pi * (-1 + u**2) ** 2 / 4), s2_even, 2)
-special(cell("u2", "s3", x**2, -pi * (2 * u + u**4 - 3 * u**2) / 4, -pi * (2 * Abs(u) + u**4 - 3 * u**2) / 4, edit=BARS),
-        s3_even, 2)  # fmt: skip
+printed = -pi * (2 * u + u**4 - 3 * u**2) / 4
+special(cell("u2", "s3", x**2, printed, -pi * (2 * Abs(u) + u**4 - 3 * u**2) / 4, edit=BARS), s3_even, 2)
 special(cell("u2", "s", x**2, pi * (u**2 + 1) / 4), s_even, 2)
 
 special(cell("u4", "s1", x**4, pi / 3 * u, pi / 3 * Abs(u), edit=BARS), s1_even, 4)
@@ -281,8 +293,8 @@ s1_zero = cell("inv1p", "s1", facing, corrected=0, side="zero")
 s1_neg = cell("inv1p", "s1", facing, corrected=oo, side="neg")
 split_cell("inv1p", "s1", facing)
 s2_inv1p = cell("inv1p", "s2", facing, 2 * pi * (1 - u), 2 * pi * (1 - Abs(u)), edit=BARS)
-s3_inv1p = cell("inv1p", "s3", facing,
-                corrected=Piecewise((2 * pi * Abs(u) * log(2 * Abs(u) / (1 + Abs(u))), Ne(u, 0)), (0, True)))  # fmt: skip
+third_reciprocal = Piecewise((2 * pi * Abs(u) * log(2 * Abs(u) / (1 + Abs(u))), Ne(u, 0)), (0, True))
+s3_inv1p = cell("inv1p", "s3", facing, corrected=third_reciprocal)
 s_pos = cell("inv1p", "s", facing, corrected=2 * pi * (1 - u * log(1 + 1 / u)), side="pos")
 s_zero = cell("inv1p", "s", facing, corrected=2 * pi, side="zero")
 s_neg = cell("inv1p", "s", facing, corrected=oo, side="neg")
@@ -362,8 +374,7 @@ t1_zero = cell("inv1m", "s1", away, corrected=0, side="zero")
 t1_neg = cell("inv1m", "s1", away, corrected=-2 * pi * u * (1 - log(2)), side="neg")
 split_cell("inv1m", "s1", away)
 s2_inv1m = cell("inv1m", "s2", away, 2 * pi * (1 - u), 2 * pi * (1 - Abs(u)), edit=BARS)
-s3_inv1m = cell("inv1m", "s3", away,
-                corrected=Piecewise((2 * pi * Abs(u) * log(2 * Abs(u) / (1 + Abs(u))), Ne(u, 0)), (0, True)))  # fmt: skip
+s3_inv1m = cell("inv1m", "s3", away, corrected=third_reciprocal)
 t_pos = cell("inv1m", "s", away, corrected=oo, side="pos")
 t_zero = cell("inv1m", "s", away, corrected=2 * pi, side="zero")
 t_neg = cell("inv1m", "s", away, corrected=2 * pi * (1 + u * log(1 - 1 / u)), side="neg")
@@ -429,9 +440,7 @@ def steep_chord(step):
         branch.fact(1 - tau, u**2 / (1 + tau))
         branch.fact(1 - inverse, (1 + tau) * (tau - x) / (tau * (1 - x)), inside=(x, -tau, tau))
         branch.fact(1 + inverse, (1 - tau) * (tau + x) / (tau * (1 - x)), inside=(x, -tau, tau))
-        branch.antiderivative(
-            2 * sqrt(tau**2 - x**2) / (1 - x) - 2 * asin(x / tau) + 2 / distance * asin(inverse)
-        )
+        branch.antiderivative(2 * sqrt(tau**2 - x**2) / (1 - x) - 2 * asin(x / tau) + 2 / distance * asin(inverse))
 
 
 spread(r2_pos, steep_chord)

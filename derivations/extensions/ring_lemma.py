@@ -7,7 +7,7 @@ superposition then carries it to every distribution.
 
 from sympy import Abs, Function, Integral, acos, exp, pi, sqrt, symbols
 
-from xsec_sym.exact import RingCrossSection, RingMean, RingSpread, RingTilt
+from xsec_sym.exact import RingCrossSection, RingSpread, RingTilt
 from xsec_sym.proof import Source, interval
 
 project = Source("xsec", section="ring lemma")

@@ -7,17 +7,38 @@ from pathlib import Path
 
 import pytest
 from sympy import (
-    Abs, Function, Heaviside, Integral, Max, Piecewise, Rational, Sum, Symbol, acos, asin, atan, binomial, cos, cosh,
-    exp, log, oo, pi, sin, sinh, sqrt, symbols,
+    Abs,
+    Function,
+    Heaviside,
+    Integral,
+    Max,
+    Piecewise,
+    Rational,
+    Sum,
+    Symbol,
+    acos,
+    asin,
+    atan,
+    binomial,
+    cos,
+    cosh,
+    exp,
+    log,
+    oo,
+    pi,
+    sin,
+    sinh,
+    sqrt,
+    symbols,
 )  # fmt: skip
 
 from xsec_sym.proof import EmptyDomain, Refused, Source, interval, parity
 from xsec_sym.proof.checker import opening, replay
 from xsec_sym.proof.domain import domain
+from xsec_sym.proof.examine import examine
 from xsec_sym.proof.piece import Piece
 from xsec_sym.proof.rules import Goal
 from xsec_sym.proof.steps import Step, derive
-from xsec_sym.proof.examine import examine
 from xsec_sym.proof.verify import verify
 
 a, u, x, t, phi = symbols("a u x t varphi", real=True)

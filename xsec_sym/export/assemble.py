@@ -20,7 +20,7 @@ DTYPES = ("float64", "float32", None)
 KERNELS = "xsec_sym.kernels"
 WIDTH = 120
 # Points for a function that is exported once; the generated kernels are measured at more.
-QUICK = 300
+QUICK = 200
 Record = Mapping[str, Entry]
 Errors = tuple[float, float]
 

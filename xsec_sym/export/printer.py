@@ -35,7 +35,7 @@ class Printer(NumPyPrinter):
 
     >>> u = Symbol("u")
     >>> Printer().doprint(2 * pi * (1 - u) * (1 + u) / 3)
-    '2.0943951023931953 * (1.0 - u) * (u + 1.0)'
+    '2.0943951023931957 * (u + 1.0) * (1.0 - u)'
     """
 
     def __init__(self) -> None:
@@ -168,7 +168,7 @@ def lines(e: Expr, taken: frozenset[str] = frozenset()) -> list[str]:
 
     >>> u = Symbol("u")
     >>> lines((1 - u**2) ** 4 * u**2)
-    ['u_2 = u * u', 'a = 1.0 - u_2', 'a_2 = a * a', 'a_4 = a_2 * a_2', 'return u_2 * a_4']
+    ['u_2 = u * u', 'b = 1.0 - u_2', 'b_2 = b * b', 'b_4 = b_2 * b_2', 'return b_4 * u_2']
     """
     names = _names(taken | {s.name for s in e.free_symbols})
     shared, (last,) = cse([e], symbols=names, order="canonical")

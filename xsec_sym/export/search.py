@@ -127,8 +127,8 @@ def one_sided(e: Expr, domain: Domain) -> tuple[Expr, Domain, dict[Symbol, Expr]
             new = e.subs(u, -positive).subs(positive, size)
             turned = Interval(size, -high, -low, variable.high_open or away in domain.conditions, variable.low_open)
         elif low == -high and variable.low_open == variable.high_open and high.is_number and e.has(Abs(u)):
-            new = e.xreplace({Abs(u): size})
-            new = new.replace(lambda n: isinstance(n, Pow) and n.base == u and n.exp.is_even, lambda n: size**n.exp)
+            even = {p: size**p.exp for p in e.atoms(Pow) if p.base == u and p.exp.is_even}
+            new = e.xreplace({Abs(u): size, **even})
             if new.has(u):
                 continue
             turned = Interval(size, S.Zero, high, away in domain.conditions, variable.high_open)

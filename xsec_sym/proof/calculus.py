@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from sympy import Add, Expr, Integral, Sum, Symbol, diff, log, oo
 
 from xsec_sym.proof.piece import Piece
@@ -21,8 +23,8 @@ from xsec_sym.proof.rules import (
 
 
 def _parts(goal: Goal, integral: Integral) -> tuple[Expr, Symbol, Expr, Expr, Piece, Piece]:
-    demand(occurs(integral, goal.left), f"{integral} does not occur")
-    demand(len(integral.limits) == 1 and len(integral.limits[0]) == 3, f"{integral} is not over one interval")
+    demand(occurs(integral, goal.left), lambda: f"{integral} does not occur")
+    demand(len(integral.limits) == 1 and len(integral.limits[0]) == 3, lambda: f"{integral} is not over one interval")
     x, low, high = integral.limits[0]
     (outer, *_) = contexts(goal, integral)
     return integral.function, x, low, high, outer, outer.inside(x, low, high)
@@ -33,8 +35,8 @@ def split(goal: Goal, integral: Integral, points: list[Expr]) -> list[Goal]:
     f, x, low, high, outer, _ = _parts(goal, integral)
     ends = [low, *points, high]
     total = []
-    for a, b in zip(ends, ends[1:], strict=False):
-        demand(outer.sign(b - a) in ("+", ">=", "0"), f"the cut {b} is not shown to lie above {a}")
+    for a, b in pairwise(ends):
+        demand(outer.sign(b - a) in ("+", ">=", "0"), lambda: f"the cut {b} is not shown to lie above {a}")
         body = branch(f, x, a, b, outer)
         total.append(Integral(body, (x, a, b)) if body != 0 else 0)
     return [goal.with_left(goal.left.xreplace({integral: Add(*total)}))]
@@ -67,7 +69,7 @@ def _arguments(node: Expr) -> list[Expr]:
 def linear(goal: Goal, integral: Integral, terms: list[Expr]) -> list[Goal]:
     """The integral of a sum as the sum of integrals, factors free of the variable drawn out. Each must converge."""
     f, x, low, high, _, inner = _parts(goal, integral)
-    demand(inner.is_zero(f - Add(*terms)), f"the terms do not add up to {f}")
+    demand(inner.is_zero(f - Add(*terms)), lambda: f"the terms do not add up to {f}")
     drawn = []
     for term in terms:
         outside, inside = term.as_independent(x, as_Add=False)
@@ -84,7 +86,9 @@ def exchange(
     """
     f, x, low, high, _, inner = _parts(goal, integral)
     outside, rest = f.as_independent(Integral, as_Add=False)
-    demand(isinstance(rest, Integral) and len(rest.limits) == 1, f"{f} is not a factor times one inner integral")
+    demand(
+        isinstance(rest, Integral) and len(rest.limits) == 1, lambda: f"{f} is not a factor times one inner integral"
+    )
     y, a, b = rest.limits[0]
     demand(not (a.has(x) or b.has(x) or low.has(y) or high.has(y)), "the limits depend on the other variable")
     deepest = inner.inside(y, a, b)
@@ -107,7 +111,7 @@ def substitute(goal: Goal, integral: Integral, new: Symbol, g: Expr, low: Expr, 
     inner = outer.inside(new, *((low, high) if rising else (high, low)))
     smooth(g, new, inner)
     slope = diff(g, new)
-    demand(inner.sign(slope) in ("+", "-"), f"{g} is not shown to be monotone")
+    demand(inner.sign(slope) in ("+", "-"), lambda: f"{g} is not shown to be monotone")
     body = f.xreplace({x: g}) * slope
     if not rising:
         low, high, body = high, low, -body
@@ -125,7 +129,7 @@ def _difference(f: Expr, primitive: Expr, x: Symbol, low: Expr, high: Expr, oute
     inner = outer.inside(x, low, high)
     f = resolved(f, inner)
     smooth(primitive, x, inner)
-    demand(inner.is_zero(diff(primitive, x) - f), f"the derivative of {primitive} is not {f}")
+    demand(inner.is_zero(diff(primitive, x) - f), lambda: f"the derivative of {primitive} is not {f}")
     continuous_at(primitive, x, low, outer)
     continuous_at(primitive, x, high, outer)
     return primitive.subs(x, high) - primitive.subs(x, low)
@@ -147,11 +151,11 @@ def recurrence(
     derivative of ``primitive``, and ``closed`` satisfies the recurrence that this gives.
     """
     f, x, low, high, outer, inner = _parts(goal, integral)
-    demand(index.is_integer and index.is_nonnegative, f"{index} does not run over 0, 1, 2, ...")
+    demand(index.is_integer and index.is_nonnegative, lambda: f"{index} does not run over 0, 1, 2, ...")
     demand(not (low.has(index) or high.has(index)), "the limits depend on the index")
     first = _difference(f.subs(index, 0), base, x, low, high, outer)
-    demand(outer.is_zero(first - closed.subs(index, 0)), f"the closed form is wrong at {index} = 0")
-    demand(outer.sign(following) in ("+", "-"), f"{following} may vanish")
+    demand(outer.is_zero(first - closed.subs(index, 0)), lambda: f"the closed form is wrong at {index} = 0")
+    demand(outer.sign(following) in ("+", "-"), lambda: f"{following} may vanish")
     smooth(primitive, x, inner)
     continuous_at(primitive, x, low, outer)
     continuous_at(primitive, x, high, outer)
@@ -165,11 +169,11 @@ def recurrence(
 
 def telescope(goal: Goal, total: Sum, primitive: Expr) -> list[Goal]:
     """A sum whose terms are differences of neighbours: the sum from a to b of F(j) - F(j - 1) is F(b) - F(a - 1)."""
-    demand(occurs(total, goal.left), f"{total} does not occur")
-    demand(len(total.limits) == 1, f"{total} is not over one index")
+    demand(occurs(total, goal.left), lambda: f"{total} does not occur")
+    demand(len(total.limits) == 1, lambda: f"{total} is not over one index")
     j, low, high = total.limits[0]
     gap = total.function - (primitive - primitive.subs(j, j - 1))
-    demand(goal.piece.is_zero(gap), f"{total.function} is not the difference of {primitive}")
+    demand(goal.piece.is_zero(gap), lambda: f"{total.function} is not the difference of {primitive}")
     value = primitive.subs(j, high) - primitive.subs(j, low - 1)
     return [goal.with_left(goal.left.xreplace({total: value}))]
 
@@ -186,23 +190,23 @@ def diverges(goal: Goal, integral: Integral, minorant: Expr, strength: Expr, ord
     demand(order >= 0, "an integrable minorant proves nothing")
     distance = x - low if end == "low" else high - x
     demand(outer.sign(high - low) == "+", "the interval may be empty")
-    demand(not strength.has(x) and outer.sign(strength) == "+", f"{strength} is not shown to be positive")
+    demand(not strength.has(x) and outer.sign(strength) == "+", lambda: f"{strength} is not shown to be positive")
     primitive = log(distance) if order == 0 else -(distance ** (-order)) / order
     growth = strength * diff(primitive, x) * (1 if end == "low" else -1)
-    demand(inner.is_zero(growth - minorant), f"{minorant} is not {strength} times a power of the distance")
+    demand(inner.is_zero(growth - minorant), lambda: f"{minorant} is not {strength} times a power of the distance")
     f = branch(f, x, low, high, outer)
-    demand(inner.sign(f - minorant) in ("+", ">=", "0"), f"{f} is not shown to lie above {minorant}")
+    demand(inner.sign(f - minorant) in ("+", ">=", "0"), lambda: f"{f} is not shown to lie above {minorant}")
     for term in Add.make_args(goal.left):
         factor, rest = term.as_independent(Integral, as_Add=False)
-        demand(outer.sign(factor) in ("+", ">=", "0") or not term.has(Integral), f"{factor} may be negative")
+        demand(outer.sign(factor) in ("+", ">=", "0") or not term.has(Integral), lambda: f"{factor} may be negative")
         if rest == integral:
-            demand(outer.sign(factor) == "+", f"{factor} may vanish")
+            demand(outer.sign(factor) == "+", lambda: f"{factor} may vanish")
         elif term.has(Integral):
             other = Goal(rest, goal.right, goal.piece)
             g, y, a, b, around, _ = _parts(other, rest)
             demand(
                 around.inside(y, a, b).sign(branch(g, y, a, b, around)) in ("+", ">=", "0"),
-                f"{rest} may be negative",
+                lambda: f"{rest} may be negative",
             )
     return []
 

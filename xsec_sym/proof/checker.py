@@ -96,11 +96,9 @@ def _replay(goal: Goal, moves: list[Any], claims: Mapping[str, Claim], symbols: 
 def lemmas(moves: list[Any]) -> set[str]:
     """The ids of the claims that a certificate leans on."""
     found: set[str] = set()
-    for name, data, *branches in moves:
+    for _, data, *branches in moves:
         if "proven" in data:
             found.add(data["proven"])
         for branch in branches:
             found |= lemmas(branch)
     return found
-
-

@@ -114,7 +114,7 @@ class Source:
         ``printed`` is None for a blank that is filled; ``corrected`` holds where the print does not, ``edit`` says
         in words what to change. ``reading`` names the normalisation and whatever the print leaves open.
         ``reduces`` names equations that turn a nested ``left`` into a single integral for the enclosures; ``points``
-        lists the kinks of an outer integrand. ``statement`` marks a property told in words, judged claim-holds or -fails.
+        lists the kinks of an outer integrand. ``statement`` marks a property told in words: it holds or fails.
         """
         if printed is None and corrected is None:
             raise ValueError(f"{self.key}:{label} says nothing: give a printed or a corrected form")

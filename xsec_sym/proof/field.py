@@ -113,10 +113,7 @@ class Field:
                         Mul(
                             coefficient,
                             value ** (powers[result.gens.index(atom)] // degree),
-                            *(
-                                g ** (k % degree if g == atom else k)
-                                for g, k in zip(result.gens, powers, strict=True)
-                            ),
+                            *(g ** (k % degree if g == atom else k) for g, k in zip(result.gens, powers, strict=True)),
                         )
                         for powers, coefficient in result.terms()
                     ]

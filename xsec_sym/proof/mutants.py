@@ -5,7 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 
-from sympy import Abs, Add, Expr, I, Integral, Mul, Pow, Rational, Sum, Symbol, nan, pi, preorder_traversal, sqrt, sympify, zoo
+from sympy import (
+    Abs,
+    Add,
+    Expr,
+    I,
+    Integral,
+    Mul,
+    Pow,
+    Rational,
+    Sum,
+    Symbol,
+    nan,
+    pi,
+    preorder_traversal,
+    sqrt,
+    sympify,
+    zoo,
+)
 
 MOST = 24
 

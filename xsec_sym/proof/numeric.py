@@ -71,7 +71,9 @@ def at(e: Expr, point: Point) -> Expr:
 def with_instances(points: list[Point], domain: Domain) -> list[Point]:
     """Give each point an instance of every free function, in turn."""
     names = list(domain.instances)
-    return [{**p, **{f: domain.instances[f][i % len(domain.instances[f])] for f in names}} for i, p in enumerate(points)]
+    return [
+        {**p, **{f: domain.instances[f][i % len(domain.instances[f])] for f in names}} for i, p in enumerate(points)
+    ]
 
 
 def try_at(left: Expr, points: list[Point], digits: int) -> tuple[list[Trial], list[str]]:

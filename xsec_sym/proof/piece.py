@@ -93,7 +93,7 @@ class Piece:
         self.facts: tuple[Fact, ...] = tuple((sympify(e), strict) for e, strict in facts)
         self.ranges = tuple(ranges)
         self.local = tuple(local)  # facts that hold between the limits of one integral only: ((x, low, high), fact)
-        self.field = Field(self, parent.field if parent else None)
+        self.field: Field = Field(self, parent.field if parent else None)
         self.known: list[tuple[Terms, bool]] = list(parent.known) if parent else []
         self._signs: dict[Expr, Sign] = dict(parent._signs) if parent else {}
         self._polynomial_signs: dict[frozenset[Any], Sign] = dict(parent._polynomial_signs) if parent else {}
@@ -133,9 +133,16 @@ class Piece:
 
     def substituted(self, symbol: Symbol, value: Expr) -> Piece:
         facts = [(e.subs(symbol, value), strict) for e, strict in self.facts]
-        here = [(tuple(a.subs(symbol, value) for a in limits), (f[0].subs(symbol, value), f[1]))
-                for limits, f in self.local if symbol not in limits]
-        return Piece([f for f in facts if f[0].free_symbols or not f[0].is_positive], [r for r in self.ranges if r.symbol != symbol], here)
+        here = [
+            (tuple(a.subs(symbol, value) for a in limits), (f[0].subs(symbol, value), f[1]))
+            for limits, f in self.local
+            if symbol not in limits
+        ]
+        return Piece(
+            [f for f in facts if f[0].free_symbols or not f[0].is_positive],
+            [r for r in self.ranges if r.symbol != symbol],
+            here,
+        )
 
     def without(self, index: int) -> Piece:
         """The piece without one of its facts, to ask whether the others contradict it."""
@@ -276,10 +283,8 @@ class Piece:
         zeros = [is_open for end, is_open in at_ends if g.eval(end) == 0]
         if g.count_roots(low, high) > len(zeros):
             return None
-        if low is not None and high is not None:
-            middle = (low + high) / 2
-        else:
-            middle = low + 1 if low is not None else high - 1
+        finite = low is not None and high is not None
+        middle = (low + high) / 2 if finite else low + 1 if low is not None else high - 1
         positive = g.eval(middle) > 0
         if all(zeros):
             return "+" if positive else "-"
@@ -422,4 +427,3 @@ def _constant_sign(expression: Expr) -> Sign:
     except NoEnclosure:
         return None
     return "+" if ball > 0 else "-" if ball < 0 else None
-

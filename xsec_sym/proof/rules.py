@@ -52,7 +52,7 @@ class Goal:
 
     def with_left(self, left: Expr) -> Goal:
         # SymPy folds a Piecewise out of nested integrals together with the inner variable: that is not the same thing
-        demand(left.free_symbols <= self.left.free_symbols, f"{left} would set a bound variable free")
+        demand(left.free_symbols <= self.left.free_symbols, lambda: f"{left} would set a bound variable free")
         return replace(self, left=left)
 
 
@@ -67,9 +67,10 @@ class Proven(Protocol):
     def form(self) -> Expr: ...
 
 
-def demand(truth: bool, sentence: str) -> None:
+def demand(truth: bool, sentence: str | Callable[[], str]) -> None:
+    """The sentence may wait until it is needed: writing out an expression costs more than most checks."""
     if not truth:
-        raise Refused(sentence)
+        raise Refused(sentence if isinstance(sentence, str) else sentence())
 
 
 # --- the pieces of a domain ---------------------------------------------------------------------------
@@ -88,8 +89,8 @@ def cases(goal: Goal, on: Expr, symbol: Symbol, root: Expr, slope: Expr) -> list
     """Three goals: on > 0, on < 0, and on = 0, which is symbol = root, since on = slope (symbol - root)."""
     above = replace(goal, piece=goal.piece.extended([(on, True)]))
     below = replace(goal, piece=goal.piece.extended([(-on, True)]))
-    demand(goal.piece.is_zero(on - slope * (symbol - root)), f"{on} is not a multiple of {symbol - root}")
-    demand(goal.piece.sign(slope) in ("+", "-"), f"{on} may vanish elsewhere than at {symbol} = {root}")
+    demand(goal.piece.is_zero(on - slope * (symbol - root)), lambda: f"{on} is not a multiple of {symbol - root}")
+    demand(goal.piece.sign(slope) in ("+", "-"), lambda: f"{on} may vanish elsewhere than at {symbol} = {root}")
 
     def at_root(e: Expr) -> Expr:
         return e.subs(symbol, root)
@@ -126,14 +127,14 @@ def fact(
     named, each term shows its sign once the lemma's left side is read as its right side.
     """
     piece = goal.piece.inside(*inner) if inner else goal.piece
-    demand(piece.is_zero(expression - Add(*terms)), f"{expression} is not shown to be the sum of {terms}")
+    demand(piece.is_zero(expression - Add(*terms)), lambda: f"{expression} is not shown to be the sum of {terms}")
     here: Any = "0"
     for term in terms:
         if proven is not None:
             (shown,) = lemma(Goal(term, goal.right, piece), proven, mapping or {})
             term = shown.left
         here = plus(here, piece.sign(term))
-    demand(here in ("+", "-", ">=", "<="), f"the signs of {terms} do not show, or differ")
+    demand(here in ("+", "-", ">=", "<="), lambda: f"the signs of {terms} do not show, or differ")
     new = (expression if here in ("+", ">=") else -expression, here in ("+", "-"))
     piece = goal.piece.noting(tuple(inner), new) if inner else goal.piece.extended([new])
     return [replace(goal, piece=piece)]
@@ -158,10 +159,15 @@ def swap(goal: Goal) -> list[Goal]:
 
 def nest(goal: Goal, integral: Integral) -> list[Goal]:
     """A repeated integral as an integral over an integral, factors free of the inner variables drawn out."""
-    demand(occurs(integral, goal.left) and len(integral.limits) > 1, f"{integral} is not a repeated integral in the goal")
+    demand(
+        occurs(integral, goal.left) and len(integral.limits) > 1,
+        lambda: f"{integral} is not a repeated integral in the goal",
+    )
     *inner, last = integral.limits
     outside, inside = integral.function.as_independent(*(limit[0] for limit in inner), as_Add=False)
-    demand(not any(e.has(limit[0]) for limit in inner for e in last[1:]), "an outer limit depends on the inner variable")
+    demand(
+        not any(e.has(limit[0]) for limit in inner for e in last[1:]), "an outer limit depends on the inner variable"
+    )
     return [goal.with_left(goal.left.xreplace({integral: Integral(outside * Integral(inside, *inner), last)}))]
 
 
@@ -179,9 +185,9 @@ def _nodes(e: Expr) -> Iterable[Expr]:
 
 def rewrite(goal: Goal, old: Expr, new: Expr) -> list[Goal]:
     """Replace a part by an equal one; under an integral, equal on the open interval of integration."""
-    demand(occurs(old, goal.left), f"{old} does not occur")
+    demand(occurs(old, goal.left), lambda: f"{old} does not occur")
     for piece in contexts(goal, old):
-        demand(piece.is_zero(old - new), f"{old} and {new} are not shown to be equal")
+        demand(piece.is_zero(old - new), lambda: f"{old} and {new} are not shown to be equal")
     return [goal.with_left(goal.left.xreplace({old: new}))]
 
 
@@ -193,7 +199,7 @@ def settle(goal: Goal) -> list[Goal]:
 def close(goal: Goal) -> list[Goal]:
     demand(
         goal.left == goal.right or goal.piece.is_zero(goal.left - goal.right),
-        f"{goal.left} and {goal.right} are not shown to be equal",
+        lambda: f"{goal.left} and {goal.right} are not shown to be equal",
     )
     return []
 
@@ -205,21 +211,23 @@ def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr]) -> list[Goal]
     for v in proven.domain.variables:
         if isinstance(v, Integers):
             count = (mapping[v.symbol] - v.low) / v.step
-            demand(bool(count.is_integer and count.is_nonnegative), f"{mapping[v.symbol]} is not in {v.text()}")
+            demand(bool(count.is_integer and count.is_nonnegative), lambda: f"{mapping[v.symbol]} is not in {v.text()}")
     old = proven.left.subs(mapping, simultaneous=True)
     new = proven.form.subs(mapping, simultaneous=True)
-    demand(occurs(old, goal.left), f"the left side of {proven.id}, {old}, does not occur")
+    demand(occurs(old, goal.left), lambda: f"the left side of {proven.id}, {old}, does not occur")
     for piece in contexts(goal, old):
         for variable in proven.domain.variables:
             if isinstance(variable, Choices):
-                demand(mapping[variable.symbol] in variable.values, f"{variable.text()} is not met")
+                demand(mapping[variable.symbol] in variable.values, lambda: f"{variable.text()} is not met")
             elif isinstance(variable, Interval):
                 for bound, strict in variable.facts():
                     here = piece.sign(bound.subs(mapping, simultaneous=True))
-                    demand(here == "+" or (not strict and here in (">=", "0")), f"{variable.text()} is not shown")
+                    demand(
+                        here == "+" or (not strict and here in (">=", "0")), lambda: f"{variable.text()} is not shown"
+                    )
         for condition in proven.domain.conditions:
             held = piece.decide(condition.subs(mapping, simultaneous=True))
-            demand(held is True, f"{proven.id} assumes {condition}, which is not shown here")
+            demand(held is True, lambda: f"{proven.id} assumes {condition}, which is not shown here")
     return [goal.with_left(goal.left.xreplace({old: new}))]
 
 
@@ -262,9 +270,12 @@ def ode(goal: Goal, x: Symbol, coefficients: list[Expr], at: Expr) -> list[Goal]
     here = goal.piece.substituted(x, at)
     for r in (r for r in goal.piece.ranges if r.symbol == x):
         for bound, _ in r.facts():
-            demand(here.sign(bound.subs(x, at)) == "+", f"{x} = {at} is not inside the interval")
+            demand(here.sign(bound.subs(x, at)) == "+", lambda: f"{x} = {at} is not inside the interval")
     for k in range(len(coefficients) - 1):
-        demand(here.is_zero(diff(gap, x, k).subs(x, at)), f"derivative {k} of the difference at {x} = {at} is not 0")
+        demand(
+            here.is_zero(diff(gap, x, k).subs(x, at)),
+            lambda: f"derivative {k} of the difference at {x} = {at} is not 0",
+        )
     return []
 
 
@@ -272,7 +283,7 @@ def connected(piece: Piece, x: Symbol) -> None:
     """Whatever the piece says about x must describe an interval: bounds, each linear in x."""
     for e, _ in piece.facts:
         if e.has(x):
-            demand(diff(e, x, 2) == 0, f"the condition {e} > 0 may cut the range of {x} into several pieces")
+            demand(diff(e, x, 2) == 0, lambda: f"the condition {e} > 0 may cut the range of {x} into several pieces")
 
 
 # --- regularity ---------------------------------------------------------------------------------------
@@ -307,20 +318,20 @@ def _critical(e: Expr, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], 
     for node in preorder_traversal(e):
         allowed = ("+",) if strict(node) else ("+", ">=", "0")
         if isinstance(node, Pow) and not node.exp.is_nonnegative:
-            demand(sign_of(node.base) in ("+", "-"), f"{node.base} may vanish in a denominator")
+            demand(sign_of(node.base) in ("+", "-"), lambda: f"{node.base} may vanish in a denominator")
             if not node.exp.is_integer:
-                demand(sign_of(node.base) == "+", f"{node.base} may be negative under a root")
+                demand(sign_of(node.base) == "+", lambda: f"{node.base} may be negative under a root")
         elif isinstance(node, Pow) and not node.exp.is_integer and node.base.free_symbols:
-            demand(sign_of(node.base) in allowed, f"{node.base} may be negative under a root")
+            demand(sign_of(node.base) in allowed, lambda: f"{node.base} may be negative under a root")
         elif isinstance(node, log):
-            demand(sign_of(node.args[0]) == "+", f"the logarithm of {node.args[0]} may not be real")
+            demand(sign_of(node.args[0]) == "+", lambda: f"the logarithm of {node.args[0]} may not be real")
         elif isinstance(node, acos | asin):
             z = node.args[0]
             inside = sign_of(1 - z**2) in allowed or all(sign_of(gap) in allowed for gap in (1 - z, 1 + z))
-            demand(inside, f"{node} may leave the range of the inverse")
+            demand(inside, lambda: f"{node} may leave the range of the inverse")
         elif isinstance(node, atanh):
             for gap in (1 - node.args[0], 1 + node.args[0]):
-                demand(sign_of(gap) == "+", f"{node} may be infinite")
+                demand(sign_of(gap) == "+", lambda: f"{node} may be infinite")
         elif isinstance(node, SWITCHES):
             raise Refused(f"{node} is not settled")
         elif hasattr(node, "definition") or isinstance(node, Integral):

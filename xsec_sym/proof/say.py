@@ -1,4 +1,4 @@
-"""Expressions in sentences. SymPy's own printer orders a sum by evaluating it, integrals included; this one does not."""
+"""Expressions in sentences. SymPy's own printer evaluates a sum, integrals included, to order it; this one does not."""
 
 from __future__ import annotations
 

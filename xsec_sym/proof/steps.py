@@ -171,7 +171,7 @@ class Step:
 
     def antiderivative(self, primitive: Any, integral: Integral | int | None = None) -> Step:
         chosen = self._integral(integral)
-        x, low, high = chosen.limits[0]
+        _, low, high = chosen.limits[0]
         return self._move("antiderivative", f"{primitive} has the derivative wanted; take it from {low} to {high}",
                           integral=chosen, primitive=sympify(primitive))  # fmt: skip
 

@@ -1,4 +1,4 @@
-"""How a verdict is earned: refute the print or not, prove what holds, try it at witnesses, and try to fool the check."""
+"""How a verdict is earned: refute the print or not, prove what holds, try it at witnesses, try to fool the check."""
 
 from __future__ import annotations
 
@@ -219,7 +219,9 @@ def _refuted(claim: Claim, outcome: Outcome, certificate: Any, evidence: dict[st
         return Verdict("inconclusive", witness=witness, evidence=evidence,
                        note="the proof goes through, yet a witness refutes the claim")  # fmt: skip
     word = "claim-fails" if claim.kind == "statement" else "refuted" if claim.corrected is None else "inconclusive"
-    return Verdict(word, witness=witness, evidence=evidence, note="" if word != "inconclusive" else "the corrected form fails")
+    return Verdict(
+        word, witness=witness, evidence=evidence, note="" if word != "inconclusive" else "the corrected form fails"
+    )
 
 
 def _witness(outcome: Outcome) -> dict[str, Any]:

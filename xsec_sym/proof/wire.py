@@ -9,7 +9,65 @@ from sympy import Basic, Integer, Rational, Symbol, Tuple
 from sympy.core.function import FunctionClass
 
 _ASSUMED = ("real", "integer", "nonnegative", "positive")
-_SYMPY = ["Add", "Mul", "Pow", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "coth", "csch", "sech", "asinh", "acosh", "atanh", "erf", "erfc", "besseli", "besselj", "gamma", "loggamma", "factorial", "binomial", "Abs", "sign", "Heaviside", "Max", "Min", "Piecewise", "ExprCondPair", "Integral", "Sum", "hyper", "legendre", "polylog", "floor", "StrictLessThan", "LessThan", "StrictGreaterThan", "GreaterThan", "Equality", "Unequality", "And", "Or", "Not", "DiracDelta", "zeta", "Derivative", "Tuple", "Union", "Interval"]
+_SYMPY = [
+    "Add",
+    "Mul",
+    "Pow",
+    "exp",
+    "log",
+    "sin",
+    "cos",
+    "tan",
+    "asin",
+    "acos",
+    "atan",
+    "atan2",
+    "sinh",
+    "cosh",
+    "tanh",
+    "coth",
+    "csch",
+    "sech",
+    "asinh",
+    "acosh",
+    "atanh",
+    "erf",
+    "erfc",
+    "besseli",
+    "besselj",
+    "gamma",
+    "loggamma",
+    "factorial",
+    "binomial",
+    "Abs",
+    "sign",
+    "Heaviside",
+    "Max",
+    "Min",
+    "Piecewise",
+    "ExprCondPair",
+    "Integral",
+    "Sum",
+    "hyper",
+    "legendre",
+    "polylog",
+    "floor",
+    "StrictLessThan",
+    "LessThan",
+    "StrictGreaterThan",
+    "GreaterThan",
+    "Equality",
+    "Unequality",
+    "And",
+    "Or",
+    "Not",
+    "DiracDelta",
+    "zeta",
+    "Derivative",
+    "Tuple",
+    "Union",
+    "Interval",
+]
 _ATOMS = {
     "pi": sympy.pi,
     "E": sympy.E,
@@ -89,5 +147,3 @@ def decode(data: Any, symbols: dict[str, Symbol] | None = None) -> Any:
     if head in ("Integral", "Sum"):
         return HEADS[head](arguments[0], *(Tuple(*a) for a in arguments[1:]))
     return HEADS[head](*arguments)
-
-

@@ -48,6 +48,7 @@ def witnesses(domain: Domain, sides: Iterable[Expr], count: int, seed: int = 0) 
     near: list[Point] = []
     for point in bulk:
         near += _towards_the_ends(domain, point)
+    for point in bulk[:4]:
         near += _around_switches(domain, switches(sides), point)
     random.shuffle(near)
     special = list(_special_points(domain, random, 2 * count))
@@ -168,7 +169,7 @@ def _both_sides(variable: Interval, edge: Expr, point: Point) -> list[Point]:
         return []
 
     def side(share: Rational) -> int:
-        value = along.subs(variable.symbol, _between(variable, point, share)).evalf(20)
+        value = along.subs(variable.symbol, _between(variable, point, share)).evalf(15)
         return 0 if not value.is_real else 1 if value > 0 else -1 if value < 0 else 0
 
     grid = [Rational(i, 8) + Rational(1, 1001) * (1 if i == 0 else -1 if i == 8 else 0) for i in range(9)]
@@ -186,8 +187,6 @@ def _both_sides(variable: Interval, edge: Expr, point: Point) -> list[Point]:
                         rounded = Rational(round(share * 10**6), 10**6)
                         near.append({**point, variable.symbol: _between(variable, point, rounded)})
     return near
-
-
 
 
 def distance_from_bulk(domain: Domain, point: Point) -> float:
