@@ -9,7 +9,7 @@ A numerator that becomes the zero polynomial is zero: that, and nothing heuristi
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import reduce
+from functools import lru_cache, reduce
 from math import floor
 from operator import mul
 from typing import TYPE_CHECKING, Any
@@ -44,7 +44,6 @@ from sympy import (
     exp,
     factorial,
     factorint,
-    fraction,
     gamma,
     log,
     pi,
@@ -54,9 +53,11 @@ from sympy import (
     sympify,
     tan,
     tanh,
-    together,
 )
 from sympy.core.function import AppliedUndef
+from sympy.polys.domains import QQ
+from sympy.polys.fields import FracField
+from sympy.polys.rings import PolyRing
 
 if TYPE_CHECKING:
     from xsec_sym.proof.piece import Piece
@@ -94,34 +95,56 @@ class Field:
     def fraction(self, expression: Expr) -> tuple[Poly, Poly]:
         atoms = self.atomise(sympify(expression))
         if atoms not in self._fractions:
-            numerator, denominator = fraction(together(atoms))
-            self._fractions[atoms] = self.reduced(numerator), self.reduced(denominator)
+            gens = _sorted(atoms.free_symbols)
+            try:
+                quotient = _fractions_in(gens).from_expr(atoms)
+            except (ValueError, ZeroDivisionError) as reason:
+                raise Unsettled(f"{expression} is not a quotient of polynomials in atoms") from reason
+            ring = quotient.numer.ring
+            self._fractions[atoms] = self._brought_down(quotient.numer, ring), self._brought_down(quotient.denom, ring)
         top, bottom = self._fractions[atoms]
         if bottom.is_zero:
             raise Unsettled(f"the denominator of {expression} vanishes identically")
         return top, bottom
 
+    def reducible(self, terms: Any) -> bool:
+        """Whether some power of a root in these terms can be brought down."""
+        return any(k >= self.relations[a][0] for m in terms for a, k in m if a in self.relations)
+
     def reduced(self, polynomial: Expr) -> Poly:
         """A polynomial in atoms, with every power of a root brought below the root's degree."""
-        result = self._poly(polynomial)
+        ring = _polynomials_in(_sorted(polynomial.free_symbols))
+        return self._brought_down(ring.from_expr(polynomial), ring)
+
+    def _brought_down(self, polynomial: Any, ring: Any) -> Poly:
+        """Divide out the relations atom^k = Q, one root after the other, until none applies."""
         changed = True
         while changed:
             changed = False
-            for atom, (degree, value) in self.relations.items():
-                if atom in result.gens and result.degree(atom) >= degree:
-                    terms = [
-                        Mul(
-                            coefficient,
-                            value ** (powers[result.gens.index(atom)] // degree),
-                            *(g ** (k % degree if g == atom else k) for g, k in zip(result.gens, powers, strict=True)),
-                        )
-                        for powers, coefficient in result.terms()
-                    ]
-                    numerator, denominator = fraction(together(Add(*terms)))
-                    if denominator.free_symbols:
-                        raise Unsettled(f"{self.meaning[atom]} has a quotient as its radicand")
-                    result, changed = self._poly(numerator / denominator), True
-        return result
+            for atom in ring.symbols:
+                degree, value = self.relations.get(atom, (0, S.Zero))
+                if not degree or polynomial.degree(ring.symbols.index(atom)) < degree:
+                    continue
+                wider = _polynomials_in(_sorted({*ring.symbols, *value.free_symbols}))
+                try:
+                    divided = wider.from_expr(value)
+                except ValueError as reason:
+                    raise Unsettled(f"{self.meaning[atom]} has a quotient as its radicand") from reason
+                polynomial, ring = polynomial.set_ring(wider), wider
+                place = ring.symbols.index(atom)
+                total = ring.zero
+                for powers, coefficient in polynomial.terms():
+                    times, left = divmod(powers[place], degree)
+                    lower = (*powers[:place], left, *powers[place + 1 :])
+                    total += ring({lower: coefficient}) * divided**times
+                polynomial, changed = total, True
+        if not polynomial:
+            return Poly(0, _PLACEHOLDER, domain="QQ")
+        used = [i for i, g in enumerate(ring.symbols) if any(powers[i] for powers in polynomial)]
+        if not used:
+            return Poly(polynomial.LC, _PLACEHOLDER, domain="QQ")
+        terms = {tuple(powers[i] for i in used): c for powers, c in polynomial.terms()}
+        return Poly.from_dict(terms, *(ring.symbols[i] for i in used), domain="QQ")
 
     def expression(self, expression: Expr) -> Expr:
         top, bottom = self.fraction(expression)
@@ -544,6 +567,20 @@ class Field:
         extra = [e.function.xreplace({j: top + i}) for i in (range(1, fixed + 1) if fixed > 0 else range(fixed + 1, 1))]
         tail = Add(*(self.atomise(t) for t in extra))
         return atom + tail if fixed > 0 else atom - tail
+
+
+def _sorted(symbols: Any) -> tuple[Symbol, ...]:
+    return tuple(sorted(symbols, key=str)) or (_PLACEHOLDER,)
+
+
+@lru_cache(maxsize=4096)
+def _fractions_in(gens: tuple[Symbol, ...]) -> Any:
+    return FracField(gens, QQ)
+
+
+@lru_cache(maxsize=4096)
+def _polynomials_in(gens: tuple[Symbol, ...]) -> Any:
+    return PolyRing(gens, QQ)
 
 
 def _paired(factors: list[tuple[Poly, int]]) -> list[tuple[Poly, int]]:

@@ -80,6 +80,18 @@ def expression_of(terms: Terms) -> Expr:
     return Add(*(Rational(c.numerator, c.denominator) * Mul(*(g**k for g, k in m)) for m, c in terms.items()))
 
 
+def product_of(a: Terms, b: Terms) -> Terms:
+    found: Terms = {}
+    for m, c in a.items():
+        for n, d in b.items():
+            powers = dict(m)
+            for atom, k in n:
+                powers[atom] = powers.get(atom, 0) + k
+            monomial = tuple(sorted(powers.items(), key=lambda pair: str(pair[0])))
+            found[monomial] = found.get(monomial, Fraction(0)) + c * d
+    return {m: c for m, c in found.items() if c}
+
+
 class Piece:
     """Facts about real variables: each an expression with the knowledge that it is > 0 (strict) or >= 0."""
 
@@ -328,7 +340,9 @@ class Piece:
         if self._products is None:
             self._products = []
             for (a, strict_a), (b, strict_b) in combinations(self.known, 2):
-                product = terms_of(self.field.reduced(expression_of(a) * expression_of(b)))
+                product = product_of(a, b)
+                if self.field.reducible(product):
+                    product = terms_of(self.field.reduced(expression_of(product)))
                 if product:
                     self._products.append((product, strict_a and strict_b))
         return self._products

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -96,7 +96,7 @@ def _verify(
         return _refuted(claim, outcome, certificate, evidence)
     routes, disagreement = 0, ""
     if thorough or not proved or not trials:
-        chosen = sorted(points, key=lambda p: distance_from_bulk(claim.domain, p))[: ROUTES if not proved else 1]
+        chosen = [_easiest(claim, seed)] if proved else sorted(points, key=_ease(claim))[:ROUTES]
         routes, disagreement = agree_by_digits(claim, claim.form, chosen, 8 if proved else digits)
     evidence |= {"witnesses": outcome.held, "digits tried": needed, "mpmath": routes}
     if certificate is not None:
@@ -205,7 +205,11 @@ def _mutation(
 
 
 def _easiest(claim: Claim, seed: int) -> Any:
-    return min(_points(claim, WITH_PROOF, seed), key=lambda p: distance_from_bulk(claim.domain, p))
+    return min(_points(claim, WITH_PROOF, seed), key=_ease(claim))
+
+
+def _ease(claim: Claim) -> Callable[[Any], float]:
+    return lambda point: distance_from_bulk(claim.domain, point)
 
 
 def _reals(claim: Claim) -> list[Symbol]:
