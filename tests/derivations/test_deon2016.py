@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from sympy import Integral, Symbol, symbols
 
-from derivations.deon2016 import dirac_ring, polynomials, scope, table1
+from derivations.deon2016 import dirac_ring, flat_limit, polynomials, scope, table1, table1_reciprocals
 from derivations.extensions import ring_lemma
 from xsec_sym import ledger
 from xsec_sym.exact import RingCrossSection
@@ -13,7 +13,7 @@ from xsec_sym.proof.claim import REGISTRY
 from xsec_sym.proof.say import said
 from xsec_sym.proof.verdict import SETTLED
 
-MODULES = (scope, dirac_ring, polynomials, table1, ring_lemma)
+MODULES = (scope, dirac_ring, flat_limit, polynomials, table1, table1_reciprocals, ring_lemma)
 ROWS = ["1", "u", "u2", "u4", "even", "odd", "inv1p", "inv1m", "inv1m2", "inv1pu2"]
 COLUMNS = ["s1", "s2", "s3", "s"]
 
@@ -53,7 +53,7 @@ def test_the_form_that_holds_and_its_verdict(name):
 def test_every_equation_and_cell_has_an_entry_and_none_is_open():
     wanted = [f"deon2016:{k}" for k in range(1, 19)] + ["deon2016:8.piecewise", "deon2016:claim.even-plus-linear"]
     wanted += [f"deon2016:T1.{row}.{column}" for row in ROWS for column in COLUMNS]
-    wanted += ["xsec:ring-lemma", "deon2016:claim.figure-1"]
+    wanted += ["xsec:ring-lemma", "deon2016:claim.figure-1", "deon2016:claim.flat-limit"]
     for name in wanted:
         assert ledger[name].verdict in SETTLED, name
 
@@ -72,7 +72,18 @@ def test_proved_forms_met_enough_mutants(name):
 
 def test_a_misprint_shows_where_the_print_fails():
     misprints = [e for e in ledger.values() if e.verdict == "misprint" and not e.parts]
-    cells = "1.s1 1.s3 u2.s1 u2.s3 u4.s1 even.s1 inv1p.s2 inv1m.s2 inv1m2.s2.neg inv1pu2.s1".split()
+    cells = [
+        "1.s1",
+        "1.s3",
+        "u2.s1",
+        "u2.s3",
+        "u4.s1",
+        "even.s1",
+        "inv1p.s2",
+        "inv1m.s2",
+        "inv1m2.s2.neg",
+        "inv1pu2.s1",
+    ]
     assert {e.id for e in misprints} == {"deon2016:18", *(f"deon2016:T1.{c}" for c in cells)}
     for entry in misprints:
         assert entry.witness and entry.edit and entry.printed and entry.corrected, entry.id

@@ -38,7 +38,7 @@ np.savez(sys.argv[1] + "/result.npz", **result)
 
 
 def entry(label, form, where, verdict="proved", kind="equation", left=0):
-    source = Source("example")
+    source = Source("exported")
     if kind == "definition":
         claim = source.definition(label, "a definition", left=left, printed=form)
     else:
@@ -111,7 +111,7 @@ def test_every_name_told_of_is_exported():
 
 def test_masks_leave_no_branch_to_chance():
     form = Piecewise((log(u), u > 1), (sqrt(1 - u), u > 0), (1 / u, u < 0), (7, True))
-    text = module(["example:1"], record=record(entry("1", form, [interval(u, -2, 4)])))
+    text = module(["exported:1"], record=record(entry("1", form, [interval(u, -2, 4)])))
     f = loaded(text).example_1
     got = f([4, 1, 0.75, 0, -0.5, -2, -2.1, np.nan])
     assert np.allclose(got, [np.log(4), 0, 0.5, 7, -2, -0.5, np.nan, np.nan], equal_nan=True)
@@ -125,7 +125,7 @@ def test_masks_leave_no_branch_to_chance():
 def test_conditions_and_several_variables():
     form = Piecewise((u / v, u < v), (Abs(u) * v, True))
     where = [interval(u, 0, 1), interval(v, 0, oo, open="left"), u + v >= 1]
-    f = loaded(module(["example:2"], record=record(entry("2", form, where)))).example_2
+    f = loaded(module(["exported:2"], record=record(entry("2", form, where)))).example_2
     assert np.allclose(f([0.5, 1, 0.25], [1, 0.5, 0.5]), [0.5, 0.5, np.nan], equal_nan=True)
     assert np.isnan(f(1, np.inf)) and f([[1], [1]], [1, 2, 3]).shape == (2, 3)
     with pytest.raises(ValueError, match=r"u .*v"):
@@ -134,7 +134,7 @@ def test_conditions_and_several_variables():
 
 def test_arguments_stay_and_names_are_python(recwarn):
     lam = Symbol("lambda", real=True)
-    text = module(["example:3"], record=record(entry("3", lam + 0, [interval(lam, 0, 1)])))
+    text = module(["exported:3"], record=record(entry("3", lam + 0, [interval(lam, 0, 1)])))
     given = np.array([0.5, 3.0])
     assert np.isnan(loaded(text).example_3(lambda_=given)[1]) and given[1] == 3.0
 
@@ -162,8 +162,8 @@ def test_refusals(name, words):
 
 @pytest.mark.parametrize("verdict", ["inconclusive", "timeout", "refuted", "claim-fails"])
 def test_what_is_not_verified_is_refused(verdict):
-    with pytest.raises(Refusal, match=f"example:4 is not verified: its verdict is {verdict}"):
-        module(["example:4"], record=record(entry("4", u, [interval(u, 0, 1)], verdict)))
+    with pytest.raises(Refusal, match=f"exported:4 is not verified: its verdict is {verdict}"):
+        module(["exported:4"], record=record(entry("4", u, [interval(u, 0, 1)], verdict)))
 
 
 def test_a_recipe_rests_on_verified_entries():
@@ -179,9 +179,9 @@ def test_a_recipe_rests_on_verified_entries():
 def test_integrals_and_infinities_are_refused():
     pending = entry("5", Integral(u * x, (x, 0, 1)), [interval(u, 0, 1)])
     with pytest.raises(Refusal, match="has an integral in it"):
-        module(["example:5"], record=record(pending))
+        module(["exported:5"], record=record(pending))
     with pytest.raises(Refusal, match="infinite on its whole domain"):
-        module(["example:6"], record=record(entry("6", oo, [interval(u, 0, 1)])))
+        module(["exported:6"], record=record(entry("6", oo, [interval(u, 0, 1)])))
 
 
 @pytest.mark.parametrize(("wanted", "dtype"), [([], None), (["sigma_power"], "float16")])

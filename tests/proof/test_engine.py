@@ -10,6 +10,7 @@ from sympy import (
     Abs,
     Function,
     Heaviside,
+    I,
     Integral,
     Max,
     Piecewise,
@@ -22,7 +23,9 @@ from sympy import (
     binomial,
     cos,
     cosh,
+    coth,
     exp,
+    gamma,
     log,
     oo,
     pi,
@@ -30,6 +33,7 @@ from sympy import (
     sinh,
     sqrt,
     symbols,
+    tan,
 )  # fmt: skip
 
 from xsec_sym.proof import EmptyDomain, Refused, Source, interval, parity
@@ -330,3 +334,103 @@ def test_opening_rebuilds_the_goal_from_the_claim():
     p = Symbol("p", integer=True, nonnegative=True)
     goal = opening(equation(u**p, u**p, interval(u, -1, 1), parity(p, odd=True)))
     assert goal.left == u ** (2 * n + 1)
+
+
+# --- attacks that once succeeded -----------------------------------------------------------------------
+
+
+def closes(attack):
+    try:
+        attack()
+    except Refused:
+        return False
+    return True
+
+
+def test_a_periodic_primitive_is_not_continuous():
+    assert not closes(lambda: step_on(Integral(1, (x, 0, pi)), 0).antiderivative(atan(tan(x))).close())
+    assert not closes(lambda: step_on(Integral(1 / sinh(x) ** 2, (x, -1, 1)), 0).antiderivative(-coth(x)).close())
+    assert not closes(lambda: step_on(atan(tan(x)), x, interval(x, -5, 5)).ode(x, [0, 1], at=0))
+
+
+def test_limits_in_the_wrong_order_say_nothing_of_the_variable():
+    assert not closes(lambda: step_on(Integral(Abs(x), (x, 0, -1)), Rational(1, 2)).antiderivative(x**2 / 2).close())
+    assert Piece().inside(x, 0, -1).sign(x) == "-"
+    assert on(interval(a, -1, 1)).inside(x, 0, a).sign(x) is None
+
+
+def test_an_infinite_end_has_no_distance():
+    integral = Integral(sin(x) ** 2 / x**2, (x, 0, oo))
+    assert not closes(lambda: step_on(integral, oo).diverges(0, 1, 0, "high"))
+
+
+def test_a_quotient_of_unknown_sign_keeps_its_root():
+    b = Symbol("b", real=True)
+    quotient = equation(sqrt(a / b), sqrt(a * b) / b, interval(a, -1, 1), interval(b, -1, 1), a * b > 0)
+    assert examine(quotient).verdict == "refuted"
+
+
+def test_a_step_keeps_its_value_at_zero():
+    assert not on(interval(u, -1, 1)).is_zero(Heaviside(u, 0) - Heaviside(u, 1))
+    assert on(interval(u, -1, 1)).is_zero(Heaviside(u) + Heaviside(-u) - 1)
+
+
+def test_an_ode_must_be_regular_where_its_values_are_given():
+    assert not closes(lambda: step_on(x, 0 * x, interval(x, -1, 1)).ode(x, [-1 / x, 1], at=0))
+    arctangents = step_on(atan(a) + atan(1 / a), -pi / 2, interval(a, -5, 5), a > 0)
+    assert not closes(lambda: arctangents.ode(a, [0, 1], at=-1))
+
+
+def test_divergent_parts_do_not_cancel():
+    def attack():
+        step = step_on(Integral(1, (x, 0, 1)), 1 - log(2)).linear(1 / x, 1 - 1 / x)
+        step.substitute(t, 2 * t, 0, Rational(1, 2), step.integrals[0]).close()
+
+    assert not closes(attack)
+    whole = Integral(1, (x, 0, 1)) - Integral(1 / x, (x, 0, 1)) - Integral(1 - 1 / x, (x, 0, 1))
+    assert not Piece().is_zero(whole)
+    step = step_on(Integral(1, (x, 0, 1)), Integral(1, (x, 0, 1))).linear(1 / x, 1 - 1 / x)
+    assert not closes(step.close)
+
+
+def test_a_bound_variable_is_not_a_free_one():
+    inner = Integral(x * t, (x, 0, 1))
+    assert not closes(lambda: step_on(inner, Rational(1, 3), interval(t, 0, 1)).substitute(t, t, 0, 1))
+    assert not on(interval(u, 0, 1)).is_zero(Integral(Abs(u), (u, -1, 1)) - Integral(u, (u, -1, 1)))
+    f = Function("F")
+    proven = equation(f(a), Integral(a * t, (t, 0, 1)), interval(a, 0, 1))
+    step = Step(Goal(f(t), t / 2, on(interval(t, 0, 1))), {proven.id: proven}, [])
+    with pytest.raises(Refused, match="captured"):
+        step.lemma(proven, {a: t})
+
+
+def test_hidden_names_do_not_meet():
+    def nested(c):
+        return Integral(1 / (2 + Integral(c, (t, 0, 1))), (x, 0, 2))
+
+    assert not Piece().is_zero(nested(exp(x * t**2)) - nested(exp(x**2 * t)))
+
+
+def test_induction_knows_nothing_of_its_index():
+    c = (1 + 7 * Heaviside(n - Rational(5, 2))) / (2 * n + 1)
+    step = Step(Goal(Integral(x ** (2 * n), (x, 0, 1)), c, Piece([(n - 3, True)])), {}, [])
+    wrong = {"primitive": x ** (2 * n + 3) - x ** (2 * n + 1), "following": 2 * n + 3, "present": -(2 * n + 1)}
+    assert not closes(lambda: step.recurrence(n, c, base=x, **wrong))
+
+
+def test_every_term_beside_a_divergent_one_is_looked_at():
+    backwards = Integral(1 / x, (x, 0, 1)) + Integral(1 / t**2, (t, 1, 0))
+    assert not closes(lambda: step_on(backwards, oo).diverges(1 / x, 1, 0, "low", backwards.args[0]))
+    j = Symbol("j", integer=True, positive=True)
+    series = Integral(1 / x, (x, 0, 1)) - Sum(1 / j, (j, 1, oo))
+    assert not closes(lambda: step_on(series, oo).diverges(1 / x, 1, 0, "low"))
+
+
+def test_signs_and_zeros_that_were_taken_for_granted():
+    j = Symbol("j", integer=True)
+    assert Piece().sign(gamma(Rational(3, 2) - n)) is None
+    assert not Piece().is_zero(Sum(Abs(j), (j, -3, n)) - Sum(j, (j, -3, n)))
+    assert not Piece().is_zero(sqrt(exp(2 * I * u)) - exp(I * u))
+    z = Symbol("z")
+    assert not Piece().is_zero(Abs(z) ** 2 - z**2)
+    assert not Piece().is_zero(binomial(n - 5, 2) - binomial(n - 5, n - 7))

@@ -189,6 +189,8 @@ def series(e: sp.Sum) -> Piece:
     n, first, last = e.limits[0]
     term = compile_ball(e.function, (n,))
     if first.is_Integer and last.is_Integer:
+        if last < first - 1:
+            raise NoEnclosure(f"the sum {said(e)} runs backwards, and there are two conventions for that")
         span = range(int(first), int(last) + 1)
         if len(span) > 200_000:
             raise NoEnclosure(f"{said(e)} has too many terms to be added one by one")

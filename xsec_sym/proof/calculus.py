@@ -2,11 +2,36 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
-from sympy import Add, Expr, Integral, Sum, Symbol, diff, log, oo
+from sympy import (
+    Abs,
+    Add,
+    Expr,
+    Heaviside,
+    Integral,
+    Mul,
+    Poly,
+    Pow,
+    S,
+    Sum,
+    Symbol,
+    acos,
+    atan,
+    cos,
+    diff,
+    exp,
+    fraction,
+    log,
+    oo,
+    preorder_traversal,
+    sin,
+    together,
+)
+from sympy.core.function import AppliedUndef
 
-from xsec_sym.proof.piece import Piece
+from xsec_sym.proof.piece import Piece, times
 from xsec_sym.proof.rules import (
     SWITCHES,
     Goal,
@@ -21,13 +46,26 @@ from xsec_sym.proof.rules import (
     smooth,
 )
 
+BINDERS = (Integral, Sum)
+TAME = (Symbol, Add, Mul, sin, cos, acos, atan, Abs, Heaviside, AppliedUndef)
+
 
 def _parts(goal: Goal, integral: Integral) -> tuple[Expr, Symbol, Expr, Expr, Piece, Piece]:
     demand(occurs(integral, goal.left), lambda: f"{integral} does not occur")
     demand(len(integral.limits) == 1 and len(integral.limits[0]) == 3, lambda: f"{integral} is not over one interval")
     x, low, high = integral.limits[0]
     (outer, *_) = contexts(goal, integral)
+    inside = {
+        limit[0] for node in preorder_traversal(integral.function) if isinstance(node, BINDERS) for limit in node.limits
+    }
+    demand(x not in inside | outer_names(goal, integral), lambda: f"{x} is bound or used twice in {integral}")
     return integral.function, x, low, high, outer, outer.inside(x, low, high)
+
+
+def outer_names(goal: Goal, integral: Integral) -> set[Symbol]:
+    """What is free where an integral stands, its limits included."""
+    found = goal.left.free_symbols | {s for e, _ in goal.piece.facts for s in e.free_symbols}
+    return found | {s for end in integral.limits[0][1:] for s in end.free_symbols}
 
 
 def split(goal: Goal, integral: Integral, points: list[Expr]) -> list[Goal]:
@@ -67,14 +105,34 @@ def _arguments(node: Expr) -> list[Expr]:
 
 
 def linear(goal: Goal, integral: Integral, terms: list[Expr]) -> list[Goal]:
-    """The integral of a sum as the sum of integrals, factors free of the variable drawn out. Each must converge."""
+    """The integral of a sum as the sum of integrals, factors free of the variable drawn out.
+
+    Where more than one term is not plainly integrable, each of those must be given a value before the goal is closed.
+    """
     f, x, low, high, _, inner = _parts(goal, integral)
     demand(inner.is_zero(f - Add(*terms)), lambda: f"the terms do not add up to {f}")
-    drawn = []
+    drawn, doubtful = [], 0
     for term in terms:
         outside, inside = term.as_independent(x, as_Add=False)
         drawn.append(outside * Integral(inside, (x, low, high)))
-    return [goal.with_left(goal.left.xreplace({integral: Add(*drawn)}))]
+        doubtful += not bounded(inside, x, inner)
+    new = goal.with_left(goal.left.xreplace({integral: Add(*drawn)}))
+    return [replace(new, doubtful=True)] if doubtful > 1 else [new]
+
+
+def bounded(e: Expr, x: Symbol, inner: Piece) -> bool:
+    """Whether e is bounded between finite limits, or integrable by hypothesis (a free function, times what is)."""
+    if any(not end.is_finite for r in inner.ranges if r.symbol == x for end in (r.low, r.high) if end.is_number):
+        return False
+    for node in preorder_traversal(e):
+        if not node.has(x) or isinstance(node, TAME) or hasattr(node, "definition"):
+            continue
+        if isinstance(node, Pow) and node.exp.is_nonnegative:
+            continue
+        if isinstance(node, Pow) and node.exp.is_integer and inner.sign(node.base - 1) in ("+", ">="):
+            continue
+        return False
+    return True
 
 
 def exchange(
@@ -84,13 +142,16 @@ def exchange(
 
     The sign may rest on a lemma: its left side is then read as its right side.
     """
-    f, x, low, high, _, inner = _parts(goal, integral)
+    f, x, low, high, outer, inner = _parts(goal, integral)
     outside, rest = f.as_independent(Integral, as_Add=False)
     demand(
         isinstance(rest, Integral) and len(rest.limits) == 1, lambda: f"{f} is not a factor times one inner integral"
     )
     y, a, b = rest.limits[0]
     demand(not (a.has(x) or b.has(x) or low.has(y) or high.has(y)), "the limits depend on the other variable")
+    demand(not outside.has(y), lambda: f"{y} is used twice in {integral}")
+    ordered = outer.sign(high - low), inner.sign(b - a)
+    demand(set(ordered) <= {"+", ">=", "0"}, "the limits are not shown to be in order")
     deepest = inner.inside(y, a, b)
     integrand = outside * rest.function
     if proven is not None:
@@ -106,6 +167,8 @@ def exchange(
 def substitute(goal: Goal, integral: Integral, new: Symbol, g: Expr, low: Expr, high: Expr) -> list[Goal]:
     """x = g(new) with g strictly monotone between low and high, which it maps to the limits."""
     f, x, a, b, outer, _ = _parts(goal, integral)
+    used = integral.atoms(Symbol) | outer_names(goal, integral) | goal.right.free_symbols
+    demand(new not in used, lambda: f"{new} already stands for something else")
     demand(outer.is_zero(g.subs(new, low) - a) and outer.is_zero(g.subs(new, high) - b), "the limits do not match")
     rising = outer.sign(high - low) in ("+", ">=", "0")
     inner = outer.inside(new, *((low, high) if rising else (high, low)))
@@ -118,21 +181,46 @@ def substitute(goal: Goal, integral: Integral, new: Symbol, g: Expr, low: Expr, 
     return [goal.with_left(goal.left.xreplace({integral: Integral(body, (new, low, high))}))]
 
 
-def antiderivative(goal: Goal, integral: Integral, primitive: Expr) -> list[Goal]:
-    """The integral as the difference of a primitive's end values."""
+def antiderivative(goal: Goal, integral: Integral, primitive: Expr, flat: str = "") -> list[Goal]:
+    """The integral as the difference of a primitive's end values.
+
+    ``flat`` names an end, low or high, where the primitive is not defined but vanishes faster than any power.
+    """
     f, x, low, high, outer, _ = _parts(goal, integral)
-    value = _difference(f, primitive, x, low, high, outer)
+    demand(flat in ("", "low", "high"), "an end is low or high")
+    value = _difference(f, primitive, x, low, high, outer, flat)
     return [goal.with_left(goal.left.xreplace({integral: value}))]
 
 
-def _difference(f: Expr, primitive: Expr, x: Symbol, low: Expr, high: Expr, outer: Piece) -> Expr:
+def _difference(f: Expr, primitive: Expr, x: Symbol, low: Expr, high: Expr, outer: Piece, flat: str = "") -> Expr:
     inner = outer.inside(x, low, high)
     f = resolved(f, inner)
     smooth(primitive, x, inner)
     demand(inner.is_zero(diff(primitive, x) - f), lambda: f"the derivative of {primitive} is not {f}")
-    continuous_at(primitive, x, low, outer)
-    continuous_at(primitive, x, high, outer)
-    return primitive.subs(x, high) - primitive.subs(x, low)
+    values = {"low": S.Zero, "high": S.Zero}
+    for name, end in (("low", low), ("high", high)):
+        if name == flat:
+            vanishes_at(primitive, x, end, inner, outer)
+        else:
+            continuous_at(primitive, x, end, outer)
+            values[name] = primitive.subs(x, end)
+    return values["high"] - values["low"]
+
+
+def vanishes_at(primitive: Expr, x: Symbol, end: Expr, inner: Piece, outer: Piece) -> None:
+    """Each term is a power of the distance to the end times exp(A), with A going to -oo like a power of it."""
+    for term in Add.make_args(primitive.expand()):
+        flats = [a for a in Mul.make_args(term) if isinstance(a, exp)]
+        others = Mul(*(a for a in Mul.make_args(term) if not isinstance(a, exp)))
+        demand(not others.has(exp), lambda: f"{term} is not a power times exponentials")
+        _, below = fraction(together(others))
+        denominator = Poly(below, x)
+        pole = Poly(denominator.LC() * (x - end) ** denominator.degree(), x)
+        demand((denominator - pole).is_zero, lambda: f"{others} may have a pole elsewhere than at {end}")
+        top, bottom = fraction(together(Add(*(e.args[0] for e in flats))))
+        demand(outer.is_zero(bottom.subs(x, end)), lambda: f"the exponent of {term} stays finite at {end}")
+        falling = times(outer.sign(top.subs(x, end)), inner.sign(bottom))
+        demand(falling == "-", lambda: f"the exponent of {term} is not shown to go to -oo")
 
 
 def recurrence(
@@ -153,6 +241,7 @@ def recurrence(
     f, x, low, high, outer, inner = _parts(goal, integral)
     demand(index.is_integer and index.is_nonnegative, lambda: f"{index} does not run over 0, 1, 2, ...")
     demand(not (low.has(index) or high.has(index)), "the limits depend on the index")
+    demand(not any(e.has(index) for e, _ in outer.facts), "what is known of the index need not hold for the next one")
     first = _difference(f.subs(index, 0), base, x, low, high, outer)
     demand(outer.is_zero(first - closed.subs(index, 0)), lambda: f"the closed form is wrong at {index} = 0")
     demand(outer.sign(following) in ("+", "-"), lambda: f"{following} may vanish")
@@ -188,6 +277,8 @@ def diverges(goal: Goal, integral: Integral, minorant: Expr, strength: Expr, ord
     demand(goal.right == oo, "the claim is not that the quantity is infinite")
     demand(end in ("low", "high"), "the end is either low or high")
     demand(order >= 0, "an integrable minorant proves nothing")
+    demand(not {low, high} & {oo, -oo}, "an infinite end needs a change of variables first")
+    demand(not inner.is_zero(minorant), "a minorant of 0 proves nothing")
     distance = x - low if end == "low" else high - x
     demand(outer.sign(high - low) == "+", "the interval may be empty")
     demand(not strength.has(x) and outer.sign(strength) == "+", lambda: f"{strength} is not shown to be positive")
@@ -204,10 +295,13 @@ def diverges(goal: Goal, integral: Integral, minorant: Expr, strength: Expr, ord
         elif term.has(Integral):
             other = Goal(rest, goal.right, goal.piece)
             g, y, a, b, around, _ = _parts(other, rest)
+            demand(around.sign(b - a) in ("+", ">=", "0"), lambda: f"the limits of {rest} are not in order")
             demand(
                 around.inside(y, a, b).sign(branch(g, y, a, b, around)) in ("+", ">=", "0"),
                 lambda: f"{rest} may be negative",
             )
+        else:
+            continuous_at(term, x, x, goal.piece)
     return []
 
 

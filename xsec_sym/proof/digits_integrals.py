@@ -252,6 +252,8 @@ def _sum(e: sp.Sum, slots: Slots) -> Run:
     def total(v: list[Any]) -> Any:
         a, b = low(v), high(v)
         if not mp.isinf(b):
+            if b < a - 1:
+                raise NoValue("a sum runs backwards, and there are two conventions for that")
             return mp.fsum(term([*v, k]) for k in range(int(a), int(b) + 1))
         return _series(lambda k: term([*v, int(k)]), int(a), str(e))
 

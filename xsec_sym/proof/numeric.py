@@ -18,6 +18,7 @@ from xsec_sym.proof.rules import unfolded
 from xsec_sym.proof.witnesses import Point
 from xsec_sym.proof.zeros import Undecided
 
+PATIENCE = 2.0  # seconds for one enclosure: a witness that wants more is not effective
 UNDEFINED = (NoEnclosure, Undecided, ZeroDivisionError, ValueError, TypeError)
 
 
@@ -81,7 +82,7 @@ def try_at(left: Expr, points: list[Point], digits: int) -> tuple[list[Trial], l
     for point in points:
         here = at(left, point)
         try:
-            trials.append(Trial(point, enclose(here, digits + 3), here))
+            trials.append(Trial(point, enclose(here, digits + 3, PATIENCE), here))
         except UNDEFINED as reason:
             unreached.append(str(reason))
     return trials, unreached
@@ -92,7 +93,7 @@ def hold_against(trials: list[Trial], form: Expr, digits: int) -> Outcome:
     outcome = Outcome(trials)
     for trial in trials:
         try:
-            right = enclose(at(form, trial.point), digits + 3)
+            right = enclose(at(form, trial.point), digits + 3, PATIENCE)
         except UNDEFINED as reason:
             outcome.unreached.append(str(reason))
             continue
@@ -121,7 +122,7 @@ def rejects(trials: list[Trial], mutant: Expr) -> bool | None:
     defined = True
     for trial in trials:
         try:
-            if not (trial.left - enclose(at(mutant, trial.point), 12)).contains(0):
+            if not (trial.left - enclose(at(mutant, trial.point), 12, PATIENCE)).contains(0):
                 return True
         except UNDEFINED:
             defined = False
@@ -132,7 +133,7 @@ def told_apart(mutant: Expr, form: Expr, points: list[Point]) -> Point | None:
     """A further point where a mutant differs from the form; None where it seems to be the form written anew."""
     for point in points:
         try:
-            if not (enclose(at(mutant, point), 12) - enclose(at(form, point), 12)).contains(0):
+            if not (enclose(at(mutant, point), 12, PATIENCE) - enclose(at(form, point), 12, PATIENCE)).contains(0):
                 return point
         except UNDEFINED:
             continue

@@ -135,9 +135,22 @@ class Piece:
         inner = Interval(x, sympify(low), sympify(high), True, True)
         limits = (x, inner.low, inner.high)
         if limits not in self._inner:
-            known = [fact for where, fact in self.local if where == limits]
-            self._inner[limits] = self.extended([*inner.facts(), *known], [inner])
+            self._inner[limits] = self._between(inner, limits)
         return self._inner[limits]
+
+    def _between(self, inner: Interval, limits: tuple[Any, ...]) -> Piece:
+        x, low, high = limits
+        if any(e.has(x) for e, _ in self.facts):
+            # the bound variable only shares its name with one that is free here: nothing known of that one holds
+            apart = [fact for fact in self.facts if not fact[0].has(x)]
+            return Piece(apart, [r for r in self.ranges if r.symbol != x], self.local)._between(inner, limits)
+        order = self.sign(high - low)
+        if order == "-":
+            inner = Interval(x, high, low, True, True)
+        elif order is None or order == "<=":
+            return self  # which of the limits is the lower one is not known, so nothing is known of x
+        known = [fact for where, fact in self.local if where == limits]
+        return self.extended([*inner.facts(), *known], [inner])
 
     def noting(self, limits: tuple[Any, ...], fact: tuple[Expr, bool]) -> Piece:
         """The piece with a fact that holds between the given limits of an integral."""
@@ -434,6 +447,8 @@ def _constant_sign(expression: Expr) -> Sign:
         return "0"
     if expression in (oo, pi):
         return "+"
+    if expression == -oo:
+        return "-"
     from xsec_sym.proof.balls import NoEnclosure, enclose
 
     try:

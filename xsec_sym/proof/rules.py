@@ -18,24 +18,43 @@ from sympy import (
     Integral,
     Max,
     Min,
+    Mul,
+    Number,
+    NumberSymbol,
     Piecewise,
     Pow,
+    Sum,
     Symbol,
     acos,
     asin,
+    atan,
     atanh,
+    binomial,
+    cos,
+    cosh,
+    coth,
+    csch,
     diff,
+    erf,
+    exp,
+    factorial,
+    gamma,
     log,
     oo,
     preorder_traversal,
     sign,
+    sin,
+    sinh,
+    tanh,
 )
 from sympy.logic.boolalg import Boolean
 
 from xsec_sym.proof.domain import Choices, Domain, Integers, Interval
 from xsec_sym.proof.field import Unsettled
 from xsec_sym.proof.piece import Piece, plus
+from xsec_sym.proof.say import said
 
+ENTIRE = (Add, Mul, Pow, Symbol, Number, NumberSymbol, exp, sin, cos, sinh, cosh, tanh, atan, erf)
 SWITCHES = (Abs, Heaviside, Max, Min, Piecewise, sign)
 
 
@@ -49,6 +68,7 @@ class Goal:
     right: Expr
     piece: Piece
     conditions: tuple[Boolean, ...] = ()
+    doubtful: bool = False  # a sum was split into integrals that may not exist: all must be given values
 
     def with_left(self, left: Expr) -> Goal:
         # SymPy folds a Piecewise out of nested integrals together with the inner variable: that is not the same thing
@@ -100,6 +120,7 @@ def cases(goal: Goal, on: Expr, symbol: Symbol, root: Expr, slope: Expr) -> list
         at_root(goal.right),
         goal.piece.substituted(symbol, root),
         tuple(at_root(c) for c in goal.conditions),
+        goal.doubtful,
     )
     return [above, below, equal]
 
@@ -107,8 +128,14 @@ def cases(goal: Goal, on: Expr, symbol: Symbol, root: Expr, slope: Expr) -> list
 def vacuous(goal: Goal) -> list[Goal]:
     """No point of the domain lies on this piece: one of its conditions, or of its facts, is false there."""
     conditions = any(goal.piece.decide(c) is False for c in goal.conditions)
-    signs = [(goal.piece.without(k).sign(e), strict) for k, (e, strict) in enumerate(goal.piece.facts)]
-    facts = any(s == "-" or (strict and s in ("0", "<=")) for s, strict in signs)
+
+    def denied(k: int) -> bool:
+        """The other facts deny this one. The latest is asked first: it is the one that emptied the piece."""
+        expression, strict = goal.piece.facts[k]
+        here = goal.piece.without(k).sign(expression)
+        return here == "-" or (strict and here in ("0", "<="))
+
+    facts = conditions or any(denied(k) for k in reversed(range(len(goal.piece.facts))))
     demand(conditions or facts, "nothing shows that this piece is empty")
     return []
 
@@ -197,6 +224,8 @@ def settle(goal: Goal) -> list[Goal]:
 
 
 def close(goal: Goal) -> list[Goal]:
+    left_over = goal.left.has(Integral) or goal.right.has(Integral)
+    demand(not (goal.doubtful and left_over), "an integral that may not exist has been given no value")
     demand(
         goal.left == goal.right or goal.piece.is_zero(goal.left - goal.right),
         lambda: f"{goal.left} and {goal.right} are not shown to be equal",
@@ -210,8 +239,18 @@ def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr]) -> list[Goal]
     mapping = {**{v: k for v, k in index.items() if v not in mapping}, **mapping}
     for v in proven.domain.variables:
         if isinstance(v, Integers):
+            demand(v.high is None, lambda: f"{v.text()} ends, so no symbolic member of it can be taken")
             count = (mapping[v.symbol] - v.low) / v.step
             demand(bool(count.is_integer and count.is_nonnegative), lambda: f"{mapping[v.symbol]} is not in {v.text()}")
+    bound = {
+        limit[0]
+        for side in (proven.left, proven.form)
+        for node in preorder_traversal(side)
+        if isinstance(node, Integral | Sum)
+        for limit in node.limits
+    }
+    taken = {s for value in mapping.values() for s in value.free_symbols}
+    demand(not bound & taken, lambda: f"{bound & taken} would be captured by {proven.id}")
     old = proven.left.subs(mapping, simultaneous=True)
     new = proven.form.subs(mapping, simultaneous=True)
     demand(occurs(old, goal.left), lambda: f"the left side of {proven.id}, {old}, does not occur")
@@ -241,6 +280,7 @@ def contexts(goal: Goal, part: Expr) -> list[Piece]:
             return
         if not occurs(part, e):
             return
+        demand(not isinstance(e, Sum), lambda: f"{part} stands inside a sum, where nothing is known of the index")
         if isinstance(e, Integral):
             for x, low, high in reversed(e.limits):
                 visit(low, piece)
@@ -263,14 +303,15 @@ def ode(goal: Goal, x: Symbol, coefficients: list[Expr], at: Expr) -> list[Goal]
     gap = resolved(goal.left, goal.piece) - resolved(goal.right, goal.piece)
     demand(not gap.has(Integral), "an equation under an integral sign cannot be differentiated here")
     connected(goal.piece, x)
-    smooth(gap, x, goal.piece)
+    for part in (gap, *coefficients):
+        smooth(part, x, goal.piece)
     demand(goal.piece.sign(coefficients[-1]) in ("+", "-"), "the leading coefficient may vanish")
     total = Add(*(c * diff(gap, x, k) for k, c in enumerate(coefficients)))
     demand(goal.piece.is_zero(total), "the difference of the two sides does not satisfy the equation")
-    here = goal.piece.substituted(x, at)
-    for r in (r for r in goal.piece.ranges if r.symbol == x):
-        for bound, _ in r.facts():
-            demand(here.sign(bound.subs(x, at)) == "+", lambda: f"{x} = {at} is not inside the interval")
+    here = Piece([f for f in goal.piece.facts if not f[0].has(x)], [r for r in goal.piece.ranges if r.symbol != x])
+    for bound, _ in (f for f in goal.piece.facts if f[0].has(x)):
+        demand(here.sign(bound.subs(x, at)) == "+", lambda: f"{x} = {at} is not inside the interval")
+    demand(here.sign(coefficients[-1].subs(x, at)) in ("+", "-"), "the equation is singular where the values are given")
     for k in range(len(coefficients) - 1):
         demand(
             here.is_zero(diff(gap, x, k).subs(x, at)),
@@ -325,6 +366,8 @@ def _critical(e: Expr, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], 
             demand(sign_of(node.base) in allowed, lambda: f"{node.base} may be negative under a root")
         elif isinstance(node, log):
             demand(sign_of(node.args[0]) == "+", lambda: f"the logarithm of {node.args[0]} may not be real")
+        elif isinstance(node, csch | coth):
+            demand(sign_of(node.args[0]) in ("+", "-"), lambda: f"{node} may be infinite")
         elif isinstance(node, acos | asin):
             z = node.args[0]
             inside = sign_of(1 - z**2) in allowed or all(sign_of(gap) in allowed for gap in (1 - z, 1 + z))
@@ -332,10 +375,12 @@ def _critical(e: Expr, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], 
         elif isinstance(node, atanh):
             for gap in (1 - node.args[0], 1 + node.args[0]):
                 demand(sign_of(gap) == "+", lambda: f"{node} may be infinite")
-        elif isinstance(node, SWITCHES):
-            raise Refused(f"{node} is not settled")
-        elif hasattr(node, "definition") or isinstance(node, Integral):
-            raise Refused(f"{node} is not an explicit function")
+        elif isinstance(node, gamma | factorial | binomial):
+            free = [a for a in node.args if not a.is_integer]
+            demand(not free, lambda: f"{node} is not known to be smooth")
+        elif not isinstance(node, ENTIRE):
+            # a list of what is smooth, since a list of what is not would always miss one
+            raise Refused(f"{said(node)} is not known to be smooth")
 
 
 __all__ = [

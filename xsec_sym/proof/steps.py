@@ -169,11 +169,13 @@ class Step:
         return self._move("substitute", f"put {chosen.limits[0][0]} = {g}", integral=chosen, new=new, g=sympify(g),
                           low=sympify(low), high=sympify(high))  # fmt: skip
 
-    def antiderivative(self, primitive: Any, integral: Integral | int | None = None) -> Step:
+    def antiderivative(self, primitive: Any, integral: Integral | int | None = None, flat: str = "") -> Step:
+        """``flat`` names an end (low or high) at which the primitive vanishes faster than any power."""
         chosen = self._integral(integral)
         _, low, high = chosen.limits[0]
-        return self._move("antiderivative", f"{primitive} has the derivative wanted; take it from {low} to {high}",
-                          integral=chosen, primitive=sympify(primitive))  # fmt: skip
+        said = f"{primitive} has the derivative wanted; take it from {low} to {high}"
+        data = {"integral": chosen, "primitive": sympify(primitive)} | ({"flat": flat} if flat else {})
+        return self._move("antiderivative", said, **data)
 
     def recurrence(self, index: Symbol, closed: Any, *, base: Any, primitive: Any, following: Any, present: Any,
                    integral: Integral | int | None = None) -> Step:  # fmt: skip

@@ -95,7 +95,7 @@ def _verify(
     if outcome.refuted_at is not None:
         return _refuted(claim, outcome, certificate, evidence)
     routes, disagreement = 0, ""
-    if thorough or not proved or not trials:
+    if thorough or not proved or not outcome.held:
         chosen = [_easiest(claim, seed)] if proved else sorted(points, key=_ease(claim))[:ROUTES]
         routes, disagreement = agree_by_digits(claim, claim.form, chosen, 8 if proved else digits)
     evidence |= {"witnesses": outcome.held, "digits tried": needed, "mpmath": routes}

@@ -67,6 +67,26 @@ _SYMPY = [
     "Tuple",
     "Union",
     "Interval",
+    "bessely",
+    "besselk",
+    "erfi",
+    "Ei",
+    "expint",
+    "elliptic_k",
+    "elliptic_e",
+    "chebyshevt",
+    "chebyshevu",
+    "re",
+    "im",
+    "asech",
+    "acsch",
+    "acoth",
+    "cot",
+    "sec",
+    "csc",
+    "acot",
+    "ceiling",
+    "Mod",
 ]
 _ATOMS = {
     "pi": sympy.pi,
@@ -83,6 +103,7 @@ _ATOMS = {
 }
 _NAMES = {value: name for name, value in _ATOMS.items()}
 HEADS: dict[str, Any] = {name: getattr(sympy, name) for name in _SYMPY if hasattr(sympy, name)}
+HEADS |= {"RisingFactorial": sympy.rf, "FallingFactorial": sympy.ff}
 HEADS["ExprCondPair"] = sympy.functions.elementary.piecewise.ExprCondPair
 
 

@@ -34,7 +34,7 @@ class Entry:
     >>> from xsec_sym.proof import Source, interval
     >>> from xsec_sym.proof.verdict import Verdict
     >>> u = Symbol("u", real=True)
-    >>> claim = Source("example").claim("2", "a cube", left=u**2 * u, printed=u**3, where=[interval(u, 0, 1)])
+    >>> claim = Source("an-entry").claim("2", "a cube", left=u**2 * u, printed=u**3, where=[interval(u, 0, 1)])
     >>> entry = Entry.of(claim, Verdict("proved", mutants=8))
     >>> entry.printed, entry.form, entry.where.text()
     ('u^{3}', u**3, 'u in [0, 1]')

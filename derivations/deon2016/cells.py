@@ -1,0 +1,125 @@
+"""What the forty cells of Table 1 have in common: what a cell is, and how each column is proved.
+
+Columns: s1, s2, s3 integrate one component of the ring against D, s is their sum, the cross-section. Every s1 and s2
+is one antiderivative in the inclination x; every s3 follows from s2 by the ring lemma, with one antiderivative in t;
+every s is a sum. Cells that are finite seen from one side and infinite from the other are split by the sign of u.
+"""
+
+from sympy import Abs, Integral, pi, sqrt, symbols
+
+from derivations.extensions.ring_lemma import shut
+from xsec_sym.exact import RingCrossSection, RingMean, RingSpread, RingTilt
+from xsec_sym.proof import interval
+
+u, x, t, u_n = symbols("u x t u_n", real=True)
+
+AT = {u: x, u_n: u}
+COMPONENT = {"s1": RingMean, "s2": RingSpread, "s3": RingTilt, "s": RingCrossSection}
+CLOSED = ("deon2016:9", "deon2016:10", "deon2016:11", "deon2016:12")
+SPHERE = [interval(u, -1, 1)]
+SIDES = {"neg": [interval(u, -1, 0, open="right")], "zero": [], "pos": [interval(u, 0, 1, open="left")]}
+SIGN = {"neg": ", u < 0", "zero": ", u = 0", "pos": ", u > 0", "": ""}
+READING = "D per steradian; a column's integral runs over all inclinations"
+BARS = "put back the bars: |u| for u"
+
+tau = sqrt(1 - u**2)
+kernel = 1 / (t**2 * (1 - t**2))
+
+
+class Cells:
+    """The cells that one module of the table claims."""
+
+    def __init__(self, paper):
+        self.paper = paper
+
+    def cell(self, row, column, distribution, printed=None, corrected=None, edit="", side="", parity=()):
+        """One cell: a component of the ring, integrated against the row's distribution."""
+        viewer = 0 if side == "zero" else u
+        return self.paper.claim(
+            f"T1.{row}.{column}" + (f".{side}" if side else ""),
+            f"Table 1: {distribution}, column {column}{SIGN[side]}",
+            left=Integral(COMPONENT[column](x, viewer) * distribution, (x, -1, 1)),
+            printed=printed,
+            corrected=corrected,
+            where=[*(SIDES[side] if side else SPHERE), *parity],
+            edit=edit,
+            reading=READING,
+            reduces=CLOSED,
+            points={x: [-tau, 0, tau]} if side != "zero" else {},
+        )
+
+    def split_cell(self, row, column, distribution, printed=None):
+        """A cell whose sides have verdicts of their own."""
+        self.paper.whole(
+            f"T1.{row}.{column}",
+            f"Table 1: {distribution}, column {column}",
+            [f"T1.{row}.{column}.{side}" for side in SIDES],
+            printed=printed,
+            left=Integral(COMPONENT[column](x, u) * distribution, (x, -1, 1)),
+            reading=READING,
+        )
+
+
+def mean(claim, primitive):
+    """s1: the half of the sphere on the viewer's side, by an antiderivative of 2 pi u x D(x)."""
+
+    @claim.proof
+    def one_half_counts(step):
+        for branch in step.cases(u):
+            if branch.is_empty:
+                branch.vacuous()
+            elif branch.goal.piece.facts_about(u):
+                branch.lemma("deon2016:10", AT).split(0).antiderivative(2 * pi * u * primitive)
+            else:
+                branch.lemma("deon2016:10", {u: x, u_n: 0})
+
+
+def spread(claim, across):
+    """s2: cut at the edges of the band |x| < sqrt(1 - u^2), which shrinks to nothing at u = 1 and u = -1."""
+
+    @claim.proof
+    def band_only(step):
+        step.lemma("deon2016:11", AT)
+        for above in step.cases(1 - u, u, 1, -1):
+            if not shut(above):
+                for branch in above.cases(1 + u, u, -1):
+                    if not shut(branch):
+                        branch.fact(1 - u**2, (1 - u) * (1 + u))
+                        for low, high in ((-1, -tau), (-tau, tau), (tau, 1)):
+                            branch.fact(1 - u**2 - x**2, (tau - x) * (tau + x), inside=(x, low, high))
+                        branch.split(-tau, tau)
+                        across(branch)
+
+
+def tilt(claim, distribution, s2, finish, here=None, at_equator=lambda step: None):
+    """s3: the ring lemma, -s2 + |u| times the integral of s2(t) / (t^2 (1 - t^2)) from |u| to 1."""
+
+    @claim.proof
+    def from_the_second_component(step):
+        for branch in step.cases(u):
+            if branch.is_empty:
+                branch.vacuous()
+            elif not branch.goal.piece.facts_about(u):
+                branch.lemma("deon2016:12", {u: x, u_n: 0})
+                at_equator(branch)
+            else:
+                distance = u if branch.goal.piece.sign(u) == "+" else -u
+                inner = Integral(RingSpread(x, t) * kernel, (t, Abs(u), 1))
+                branch.lemma("xsec:ring-lemma.third", {x: x, u: u})
+                branch.linear(-RingSpread(x, u) * distribution, Abs(u) * distribution * inner)
+                branch.exchange(next(i for i in branch.integrals if i.has(t)), by="deon2016:11", mapping={u: x, u_n: t})
+                branch.lemma((here or {}).get(distance / u, s2), {u: u}).lemma(s2, {u: t}).settle()
+                finish(branch, distance)
+
+
+def total(claim, *columns):
+    """s: the sum of the three components."""
+
+    @claim.proof
+    def sum_of_columns(step):
+        viewer = u if step.left.has(u) else 0
+        parts = [COMPONENT[c](x, viewer) for c in ("s1", "s2", "s3")]
+        distribution = step.left.function / RingCrossSection(x, viewer)
+        step.lemma("deon2016:9", {u: x, u_n: viewer}).linear(*(part * distribution for part in parts))
+        for column in columns:
+            step.lemma(column, {u: viewer})

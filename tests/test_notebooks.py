@@ -1,0 +1,43 @@
+"""Every notebook runs from a fresh kernel without an error or a warning, and is stored without outputs."""
+
+import asyncio
+from pathlib import Path
+
+import matplotlib.font_manager  # noqa: F401  (makes the cache of fonts, which a first import tells of on stderr)
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
+SECONDS = 150
+
+each_notebook = pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+
+
+def code_cells(notebook):
+    return [cell for cell in notebook.cells if cell.cell_type == "code"]
+
+
+def test_there_are_notebooks():
+    assert NOTEBOOKS
+
+
+@each_notebook
+def test_stored_without_outputs(path):
+    notebook = nbformat.read(path, as_version=4)
+    nbformat.validate(notebook)
+    assert notebook.metadata.kernelspec.name == "python3"
+    assert all(not cell.outputs and cell.execution_count is None for cell in code_cells(notebook))
+
+
+@each_notebook
+def test_runs_cleanly(path):
+    notebook = nbformat.read(path, as_version=4)
+    client = NotebookClient(notebook, kernel_name="python3", resources={"metadata": {"path": str(path.parent)}})
+    # a cell that raises ends the run with its traceback
+    asyncio.run(asyncio.wait_for(client.async_execute(), SECONDS))
+    cells = [cell for cell in code_cells(notebook) if cell.source.strip()]
+    assert cells and all(cell.execution_count for cell in cells)
+    outputs = [output for cell in cells for output in cell.outputs]
+    assert [o for o in outputs if o.output_type == "error"] == []
+    assert [o.text for o in outputs if o.output_type == "stream" and o.name == "stderr"] == []
