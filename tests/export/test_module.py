@@ -112,12 +112,12 @@ def test_every_name_told_of_is_exported():
 def test_masks_leave_no_branch_to_chance():
     form = Piecewise((log(u), u > 1), (sqrt(1 - u), u > 0), (1 / u, u < 0), (7, True))
     text = module(["exported:1"], record=record(entry("1", form, [interval(u, -2, 4)])))
-    f = loaded(text).example_1
+    f = loaded(text).exported_1
     got = f([4, 1, 0.75, 0, -0.5, -2, -2.1, np.nan])
     assert np.allclose(got, [np.log(4), 0, 0.5, 7, -2, -0.5, np.nan, np.nan], equal_nan=True)
     assert f(4.0).shape == () and f([]).shape == (0,) and f(np.float32(4)).dtype == np.float32
     # the branches see only what is theirs, so that nothing is raised even where warnings are not silenced
-    inner = loaded(text)._example_1
+    inner = loaded(text)._exported_1
     with np.errstate(all="raise"):
         inner(np.array([4, 1, 0.75, 0, -0.5, -2]))
 
@@ -125,7 +125,7 @@ def test_masks_leave_no_branch_to_chance():
 def test_conditions_and_several_variables():
     form = Piecewise((u / v, u < v), (Abs(u) * v, True))
     where = [interval(u, 0, 1), interval(v, 0, oo, open="left"), u + v >= 1]
-    f = loaded(module(["exported:2"], record=record(entry("2", form, where)))).example_2
+    f = loaded(module(["exported:2"], record=record(entry("2", form, where)))).exported_2
     assert np.allclose(f([0.5, 1, 0.25], [1, 0.5, 0.5]), [0.5, 0.5, np.nan], equal_nan=True)
     assert np.isnan(f(1, np.inf)) and f([[1], [1]], [1, 2, 3]).shape == (2, 3)
     with pytest.raises(ValueError, match=r"u .*v"):
@@ -136,7 +136,7 @@ def test_arguments_stay_and_names_are_python(recwarn):
     lam = Symbol("lambda", real=True)
     text = module(["exported:3"], record=record(entry("3", lam + 0, [interval(lam, 0, 1)])))
     given = np.array([0.5, 3.0])
-    assert np.isnan(loaded(text).example_3(lambda_=given)[1]) and given[1] == 3.0
+    assert np.isnan(loaded(text).exported_3(lambda_=given)[1]) and given[1] == 3.0
 
 
 @pytest.mark.parametrize(

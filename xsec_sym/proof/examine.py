@@ -22,7 +22,7 @@ def examine(claim: Claim, *, digits: int = 30, seed: int = 0) -> Verdict:
     >>> from sympy import Symbol, cos, sin
     >>> from xsec_sym.proof import Source, interval
     >>> a = Symbol("a", real=True)
-    >>> same = Source("mine").claim("1", "", left=sin(a) ** 2 + cos(a) ** 2, printed=1, where=[interval(a, 0, 1)])
+    >>> same = Source("of-a-user").claim("1", "", left=sin(a) ** 2 + cos(a) ** 2, printed=1, where=[interval(a, 0, 1)])
     >>> examine(same).verdict
     'proved'
     """
