@@ -7,7 +7,7 @@ every s is a sum. Cells that are finite seen from one side and infinite from the
 
 from sympy import Abs, Integral, pi, sqrt, symbols
 
-from derivations.extensions.ring_lemma import shut
+from derivations.extensions.ring_lemma import over_the_band
 from xsec_sym.exact import RingCrossSection, RingMean, RingSpread, RingTilt
 from xsec_sym.proof import interval
 
@@ -75,20 +75,8 @@ def mean(claim, primitive):
 
 
 def spread(claim, across):
-    """s2: cut at the edges of the band |x| < sqrt(1 - u^2), which shrinks to nothing at u = 1 and u = -1."""
-
-    @claim.proof
-    def band_only(step):
-        step.lemma("deon2016:11", AT)
-        for above in step.cases(1 - u, u, 1, -1):
-            if not shut(above):
-                for branch in above.cases(1 + u, u, -1):
-                    if not shut(branch):
-                        branch.fact(1 - u**2, (1 - u) * (1 + u))
-                        for low, high in ((-1, -tau), (-tau, tau), (tau, 1)):
-                            branch.fact(1 - u**2 - x**2, (tau - x) * (tau + x), inside=(x, low, high))
-                        branch.split(-tau, tau)
-                        across(branch)
+    """s2: the band |x| < sqrt(1 - u^2), by whatever ``across`` does with the integral over it."""
+    claim.proof(lambda step: over_the_band(step, across))
 
 
 def tilt(claim, distribution, s2, finish, here=None, at_equator=lambda step: None):

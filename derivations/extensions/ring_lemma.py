@@ -159,7 +159,12 @@ second = project.claim(
 
 
 @second.proof
-def band_only(step):
+def stretched_to_unit_width(step):
+    over_the_band(step, lambda branch: branch.substitute(y, tau * y, -1, 1))
+
+
+def over_the_band(step, across):
+    """Cut an integral of the second component at the edges of the band, which shrinks to nothing at u = 1 and -1."""
     step.lemma("deon2016:11", AT)
     for above in step.cases(1 - u, u, 1, -1):
         if not shut(above):
@@ -168,7 +173,8 @@ def band_only(step):
                     branch.fact(1 - u**2, (1 - u) * (1 + u))
                     for low, high in ((-1, -tau), (-tau, tau), (tau, 1)):
                         branch.fact(1 - u**2 - x**2, (tau - x) * (tau + x), inside=(x, low, high))
-                    branch.split(-tau, tau).substitute(y, tau * y, -1, 1)
+                    branch.split(-tau, tau)
+                    across(branch)
 
 
 def shut(step):
