@@ -9,6 +9,7 @@ words; what the engine proves are the values.
 
 from sympy import Integral, Rational, atanh, coth, csch, exp, log, pi, sqrt, symbols
 
+from xsec_sym.exact import beckmann, ellipsoidal, ggx, spherical_gaussian
 from xsec_sym.proof import Source, interval
 
 paper = Source("deon2016", section="2.1")
@@ -17,15 +18,11 @@ x = symbols("x", real=True)
 alpha, b = symbols("alpha b", real=True)
 
 kappa = 2 / alpha**2
-spherical_gaussian = csch(kappa) * exp(kappa * x) / (2 * pi * alpha**2)  # (28)
-kagiwada_kalaba = b / ((1 - b * x) * log((1 + b) / (1 - b)))  # (26), per unit cosine
-beckmann = exp(-(1 / x**2 - 1) / alpha**2) / (pi * alpha**2 * x**4)  # (19), for x > 0
-ggx = alpha**2 / (pi * x**4 * (alpha**2 + 1 / x**2 - 1) ** 2)  # (24), for x > 0
 
 gaussian = paper.claim(
     "claim.flat-limit.spherical-gaussian",
     "the spherical Gaussian closes on the pole: m = alpha^2 / 2 - (coth(2 / alpha^2) - 1), at most alpha^2 / 2",
-    left=Integral(2 * pi * (1 - x) * spherical_gaussian, (x, -1, 1)),
+    left=Integral(2 * pi * (1 - x) * spherical_gaussian(x, alpha), (x, -1, 1)),
     printed=alpha**2 / 2 - (coth(kappa) - 1),
     where=[interval(alpha, 0, 10, open="left")],
     reading="D per steradian, unit mass",
@@ -38,18 +35,18 @@ def moment_of_the_exponential(step):
     step.antiderivative(csch(kappa) / alpha**2 * exp(kappa * x) * ((1 - x) / kappa + 1 / kappa**2))
 
 
-ellipsoidal = paper.claim(
+pole = paper.claim(
     "claim.flat-limit.kagiwada-kalaba",
     "the ellipsoidal distribution closes on the pole as b goes to 1: m = 2 / log((1 + b) / (1 - b)) - (1 - b) / b",
-    left=Integral((1 - x) * kagiwada_kalaba, (x, -1, 1)),
+    left=Integral(2 * pi * (1 - x) * ellipsoidal(x, b), (x, -1, 1)),
     printed=2 / log((1 + b) / (1 - b)) - (1 - b) / b,
     where=[interval(b, 0, 1, open=True)],
-    reading="D per unit cosine, unit mass",
+    reading="D per steradian, unit mass",
     statement=True,
 )
 
 
-@ellipsoidal.proof
+@pole.proof
 def moment_of_the_pole(step):
     step.fact(1 - b * x, 1 - b, b * (1 - x), inside=(x, -1, 1))
     step.antiderivative((x + (1 - b) / b * log(1 - b * x)) / log((1 + b) / (1 - b)))
@@ -58,7 +55,7 @@ def moment_of_the_pole(step):
 slopes = paper.claim(
     "claim.flat-limit.beckmann",
     "Beckmann flattens: the mean square slope, which is at least 2 m, is alpha^2",
-    left=Integral(2 * pi * x * (1 / x**2 - 1) * beckmann, (x, 0, 1)),
+    left=Integral(2 * pi * x * (1 / x**2 - 1) * beckmann(x, alpha), (x, 0, 1)),
     printed=alpha**2,
     where=[interval(alpha, 0, 10, open="left")],
     reading="D per steradian with unit projected area; 1 - x <= (1 - x^2) / (2 x) for 0 < x <= 1 gives 2 m <= alpha^2",
@@ -75,7 +72,7 @@ def moment_of_the_slopes(step):
 roughness = paper.claim(
     "claim.flat-limit.ggx",
     "GGX flattens: m = alpha^2 artanh(h) / h with h^2 = 1 - alpha^2, which goes to 0 with alpha^2 log(1 / alpha)",
-    left=Integral(2 * pi * (1 - x) * ggx, (x, 0, 1)),
+    left=Integral(2 * pi * (1 - x) * ggx(x, alpha), (x, 0, 1)),
     printed=alpha**2 * atanh(sqrt(1 - alpha**2)) / sqrt(1 - alpha**2),
     where=[interval(alpha, 0, 1, open=True)],
     reading="D per steradian with unit projected area, so that m is the surface's excess area; artanh(h) = "

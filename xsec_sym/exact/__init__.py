@@ -1,5 +1,38 @@
 """The exact definitions that claims talk about, unevaluated, each with its LaTeX form."""
 
+from xsec_sym.exact.distributions import (
+    SigmaBeckmann,
+    SigmaEllipsoidal,
+    SigmaGGX,
+    SigmaSphericalGaussian,
+    SpreadBeckmann,
+    SpreadEllipsoidal,
+    SpreadGGX,
+    SpreadSphericalGaussian,
+    beckmann,
+    ellipsoidal,
+    ggx,
+    spherical_gaussian,
+)
 from xsec_sym.exact.ring import AZIMUTH, RingCrossSection, RingMean, RingSpread, RingTilt, facing
 
-__all__ = ["AZIMUTH", "RingCrossSection", "RingMean", "RingSpread", "RingTilt", "facing"]
+__all__ = [
+    "AZIMUTH",
+    "RingCrossSection",
+    "RingMean",
+    "RingSpread",
+    "RingTilt",
+    "SigmaBeckmann",
+    "SigmaEllipsoidal",
+    "SigmaGGX",
+    "SigmaSphericalGaussian",
+    "SpreadBeckmann",
+    "SpreadEllipsoidal",
+    "SpreadGGX",
+    "SpreadSphericalGaussian",
+    "beckmann",
+    "ellipsoidal",
+    "facing",
+    "ggx",
+    "spherical_gaussian",
+]

@@ -20,7 +20,7 @@ def facing(u: Expr, x: Expr) -> Expr:
     return u * x + sqrt(1 - u**2) * sqrt(1 - x**2) * cos(AZIMUTH)
 
 
-class _OnTheRing(Function):
+class OnTheRing(Function):
     nargs = 2
     symbol = ""
 
@@ -38,7 +38,7 @@ class _OnTheRing(Function):
 
 
 @register
-class RingCrossSection(_OnTheRing):
+class RingCrossSection(OnTheRing):
     """The clamped cosine, integrated over the ring: the cross-section of D = delta(x - u_n).
 
     >>> from sympy import symbols
@@ -55,7 +55,7 @@ class RingCrossSection(_OnTheRing):
 
 
 @register
-class RingMean(_OnTheRing):
+class RingMean(OnTheRing):
     """The ring seen as if all of it lay at its centre: the mean cosine, where that is positive."""
 
     symbol = r"\sigma_{\delta 1}"
@@ -66,7 +66,7 @@ class RingMean(_OnTheRing):
 
 
 @register
-class RingSpread(_OnTheRing):
+class RingSpread(OnTheRing):
     """The part of the cosine that changes with azimuth, over the visible arc."""
 
     symbol = r"\sigma_{\delta 2}"
@@ -78,7 +78,7 @@ class RingSpread(_OnTheRing):
 
 
 @register
-class RingTilt(_OnTheRing):
+class RingTilt(OnTheRing):
     """The mean cosine over the visible arc, less what `RingMean` has already counted."""
 
     symbol = r"\sigma_{\delta 3}"
