@@ -37,9 +37,7 @@ from xsec_sym.proof.rules import Goal, Proven, contexts, demand, lemma, occurs, 
 CIRCLE = (S.Zero, 2 * pi)
 
 
-def turn(
-    goal: Goal, integral: Integral, u: Expr, seen: Symbol | None = None, form: Expr | None = None
-) -> list[Goal]:
+def turn(goal: Goal, integral: Integral, u: Expr, seen: Symbol | None = None, form: Expr | None = None) -> list[Goal]:
     """The area of the sphere does not care which axis is its pole: x and the cosine towards u change places.
 
     The integral of F(x, c) over azimuth phi and inclination x, with c = u x + sqrt(1 - u^2) sqrt(1 - x^2) cos(phi),
