@@ -5,6 +5,7 @@ the cross-section, on which the proofs lean, stand in `derivations/extensions/sp
 """
 
 from sympy import (
+    Function,
     Integral,
     Sum,
     besseli,
@@ -46,7 +47,7 @@ j = symbols("j", integer=True, nonnegative=True)
 sigma = SigmaSphericalGaussian
 PER_STERADIAN = "D per steradian, unit mass; u_i is written u"
 
-paper.definition("28", "the spherical Gaussian", left=spherical_gaussian(u, alpha), printed=spherical_gaussian(u, alpha),
+paper.definition("28", "the spherical Gaussian", left=Function("D_SG")(u), printed=spherical_gaussian(u, alpha),
                  reading="per steradian: its mass is a claim of its own")  # fmt: skip
 
 mass = paper.claim(

@@ -30,6 +30,8 @@ MOVES: dict[str, Callable[..., list[Goal]]] = {
         rules.close,
         rules.lemma,
         rules.ode,
+        rules.induct,
+        rules.dominate,
         calculus.split,
         calculus.extend,
         calculus.linear,

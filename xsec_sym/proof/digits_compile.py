@@ -12,6 +12,7 @@ import sympy as sp
 from mpmath import mp, mpf
 from sympy import Expr, S, Symbol
 
+from xsec_sym.proof.magnitude import Magnitude
 from xsec_sym.proof.quadrature import NoValue
 from xsec_sym.proof.say import said
 
@@ -31,6 +32,7 @@ _FUNCTIONS: dict[Any, Callable[..., Any]] = {
         for name in ("besselj", "bessely", "besseli", "besselk", "airyai", "airybi")
     },
     sp.Abs: abs,
+    Magnitude: abs,
     sp.ceiling: mp.ceil,
     sp.Ei: mp.ei,
     sp.polygamma: mp.psi,

@@ -54,6 +54,7 @@ from sympy.logic.boolalg import Boolean
 
 from xsec_sym.proof.domain import Choices, Domain, Integers, Interval
 from xsec_sym.proof.field import Unsettled
+from xsec_sym.proof.magnitude import Magnitude
 from xsec_sym.proof.piece import Piece, plus
 from xsec_sym.proof.say import said
 
@@ -150,18 +151,20 @@ def fact(
     inner: list[Any] | None = None,
     proven: Proven | None = None,
     mapping: dict[Symbol, Expr] | None = None,
+    back: bool = False,
 ) -> list[Goal]:
     """expression is the sum of terms whose signs show and agree; so its own sign is known from here on.
 
     ``inner`` = (x, low, high): a fact about an integrand, between the limits of that integral only. Where a lemma is
-    named, each term shows its sign once the lemma's left side is read as its right side.
+    named, each term shows its sign once the lemma's left side is read as its right side, or ``back``: where a lemma
+    says |X| = X, the X of a term is then seen not to be negative.
     """
     piece = goal.piece.inside(*inner) if inner else goal.piece
     demand(piece.is_zero(expression - Add(*terms)), lambda: f"{expression} is not shown to be the sum of {terms}")
     here: Any = "0"
     for term in terms:
-        if proven is not None:
-            (shown,) = lemma(Goal(term, goal.right, piece), proven, mapping or {})
+        if proven is not None and occurs(_replaced(proven, mapping or {}, back), term):
+            (shown,) = lemma(Goal(term, goal.right, piece), proven, mapping or {}, back)
             term = shown.left
         here = plus(here, piece.sign(term))
     demand(here in ("+", "-", ">=", "<="), lambda: f"the signs of {terms} do not show, or differ")
@@ -332,6 +335,55 @@ def connected(piece: Piece, x: Symbol) -> None:
             demand(diff(e, x, 2) == 0, lambda: f"the condition {e} > 0 may cut the range of {x} into several pieces")
 
 
+# --- inequalities: X >= 0 is the equation |X| = X -------------------------------------------------------
+
+
+def _replaced(proven: Proven, mapping: dict[Symbol, Expr], back: bool) -> Expr:
+    index = {v.symbol: v.member(v.index) for v in proven.domain.variables if isinstance(v, Integers)}
+    return (proven.form if back else proven.left).subs({**index, **mapping}, simultaneous=True)
+
+
+def induct(
+    goal: Goal,
+    index: Symbol,
+    factor: Expr,
+    terms: list[Expr],
+    proven: Proven | None = None,
+    mapping: dict[Symbol, Expr] | None = None,
+) -> list[Goal]:
+    """X(0) >= 0, and X(n + 1) is a factor that is not negative times X(n), plus terms that show they are not negative.
+
+    A lemma |Y| = Y may show it of a Y in them.
+    """
+    x = goal.right
+    demand(goal.left == Magnitude(x), lambda: f"{goal.left} = {x} does not say that {x} is not negative")
+    demand(bool(index.is_integer and index.is_nonnegative), lambda: f"{index} does not run over 0, 1, 2, ...")
+    demand(not goal.piece.facts_about(index), "what is known of the index need not hold for the next one")
+    for part in (x.subs(index, 0), factor):
+        demand(goal.piece.sign(part) in ("+", ">=", "0"), lambda: f"{part} is not shown to be at least 0")
+    added = x.subs(index, index + 1) - factor * x
+    (shown,) = fact(goal, added, terms, None, proven, mapping, back=proven is not None)
+    demand(shown.piece.facts[-1][0] == added, lambda: f"{added} is not shown to be at least 0")
+    return []
+
+
+def dominate(goal: Goal, total: Sum, first: Expr, ratio: Expr) -> list[Goal]:
+    """|sum of f_j| <= first / (1 - ratio), noted as two facts, where |f_j| <= first ratio^j and 0 <= ratio < 1."""
+    demand(
+        len(total.limits) == 1 and total.limits[0][1:] == (0, oo), lambda: f"{total} does not run from 0 without end"
+    )
+    j = total.limits[0][0]
+    demand(bool(j.is_integer and j.is_nonnegative) and not first.has(j) and not ratio.has(j), "the bound depends on j")
+    sign_of = goal.piece.sign
+    shrinks = sign_of(ratio) in ("+", ">=", "0") and sign_of(1 - ratio) == "+"
+    demand(shrinks, lambda: f"{ratio} is not shown to be in [0, 1)")
+    bound = first * ratio**j
+    for gap in (bound - total.function, bound + total.function):
+        demand(sign_of(gap) in ("+", ">=", "0"), lambda: f"{gap} is not shown to be at least 0")
+    whole = first / (1 - ratio)
+    return [replace(goal, piece=goal.piece.extended([(whole - total, False), (whole + total, False)]))]
+
+
 # --- regularity ---------------------------------------------------------------------------------------
 
 
@@ -406,7 +458,9 @@ __all__ = [
     "contexts",
     "continuous_at",
     "demand",
+    "dominate",
     "fact",
+    "induct",
     "lemma",
     "nest",
     "occurs",

@@ -237,13 +237,16 @@ def _entire(e: Expr, z: Symbol) -> bool:
     return isinstance(e, Add | Mul | exp) and all(_entire(part, z) for part in e.args)
 
 
-def peel(goal: Goal, total: Sum) -> list[Goal]:
-    """An infinite sum as its first term and the sum of the others, counted from 0 again."""
+def peel(goal: Goal, total: Sum, count: Expr = S.One) -> list[Goal]:
+    """An infinite sum as its first terms, ``count`` of them, and the sum of the others, counted from 0 again."""
     demand(occurs(total, goal.left) and len(total.limits) == 1, lambda: f"{total} does not occur")
     j, low, high = total.limits[0]
     demand(low == 0 and high == oo, "the sum does not run from 0 without end")
-    rest = Sum(total.function.subs(j, j + 1), (j, 0, oo))
-    return [goal.with_left(goal.left.xreplace({total: total.function.subs(j, 0) + rest}))]
+    natural = bool(count.is_integer and count.is_nonnegative) and not count.has(j)
+    demand(natural, lambda: f"{count} is not a number of terms")
+    rest = Sum(total.function.subs(j, j + count), (j, 0, oo))
+    first = total.function.subs(j, 0) if count == 1 else Sum(total.function, (j, 0, count - 1))
+    return [goal.with_left(goal.left.xreplace({total: first + rest}))]
 
 
 __all__ = ["beats", "bessel", "harmonics", "peel", "shear", "taylor", "turn", "wave"]
