@@ -42,6 +42,8 @@ MOVES: dict[str, Callable[..., list[Goal]]] = {
         calculus.telescope,
         calculus.diverges,
         sphere.turn,
+        sphere.funk_hecke,
+        sphere.parities,
         sphere.bessel,
         sphere.wave,
         sphere.beats,

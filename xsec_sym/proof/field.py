@@ -47,6 +47,7 @@ from sympy import (
     factorint,
     gamma,
     hyper,
+    legendre,
     log,
     oo,
     pi,
@@ -61,6 +62,7 @@ from sympy.core.function import AppliedUndef
 
 from xsec_sym.proof import bessel
 from xsec_sym.proof.atoms import Atoms, Unsettled
+from xsec_sym.proof.legendre import atomised as legendre_normal
 
 _HYPERBOLIC = (sinh, cosh, tanh, coth, csch, tan)
 
@@ -116,6 +118,8 @@ class Field(Atoms):
             return self._mirrored(e, lambda other: other)
         if isinstance(e, besseli):
             return bessel.atomised(self, e)
+        if isinstance(e, legendre):
+            return legendre_normal(self, e)
         if isinstance(e, hyper):
             return bessel.confluent(self, e)
         if isinstance(e, Integral):
@@ -219,6 +223,9 @@ class Field(Atoms):
         return constant, [*f_top, *((f, -k) for f, k in f_bottom)]
 
     def _power(self, base: Expr, exponent: Expr) -> Expr:
+        below = isinstance(base, gamma) and exponent.is_Integer and exponent < 0 and base.args[0].expand().is_integer
+        if below and self.piece.sign(base.args[0]) in ("-", "<=", "0"):
+            return S.Zero  # 1 / gamma is entire, and 0 at the poles
         if exponent.is_Integer:
             return self.atomise(base) ** exponent
         if base is S.Exp1:
@@ -352,6 +359,9 @@ class Field(Atoms):
 
     def _gamma(self, e: Expr) -> Expr:
         """Shift the argument to one representative, so that ratios of neighbours become rational."""
+        e = e.expand()
+        if e.is_integer and self.piece.sign(e) != "+":
+            raise Unsettled(f"gamma({e}) may have a pole")
         fixed, moving = _split_exponent(e)
         if not moving:
             value = gamma(fixed)

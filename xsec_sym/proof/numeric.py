@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import Any
 
 from mpmath import workdps
-from sympy import Abs, Add, Expr, Integral, Symbol, lambdify, oo, preorder_traversal, sympify
+from sympy import Abs, Add, Expr, Integral, Sum, Symbol, lambdify, oo, preorder_traversal, sympify
 
 from xsec_sym.proof.balls import NoEnclosure, enclose
 from xsec_sym.proof.claim import Claim
@@ -177,7 +177,7 @@ def digits_of(claim: Claim, e: Expr, point: Point, digits: int) -> Any:
     found: dict[Expr, Symbol] = {}
     walk = preorder_traversal(here)
     for node in walk:
-        if isinstance(node, Integral):
+        if isinstance(node, Integral) or (isinstance(node, Sum) and node.has(Integral)):
             walk.skip()
             found.setdefault(node, Symbol(f"I{len(found)}"))
     if not found:

@@ -42,6 +42,7 @@ from sympy import (
     factorial,
     gamma,
     hyper,
+    legendre,
     log,
     oo,
     preorder_traversal,
@@ -288,7 +289,14 @@ def contexts(goal: Goal, part: Expr) -> list[Piece]:
             return
         if not occurs(part, e):
             return
-        demand(not isinstance(e, Sum), lambda: f"{part} stands inside a sum, where nothing is known of the index")
+        if isinstance(e, Sum):
+            natural = all(j.is_integer and j.is_nonnegative and a.is_nonnegative for j, a, _ in e.limits)
+            apart = not any(piece.facts_about(j) for j, *_ in e.limits)
+            demand(natural and apart, lambda: f"{part} stands in a sum whose index is not known to be natural")
+            fixed = not any(occurs(part, end) for _, *ends in e.limits for end in ends)
+            demand(fixed, "a limit of a sum stays as it is")
+            visit(e.function, piece)
+            return
         if isinstance(e, Integral):
             for x, low, high in reversed(e.limits):
                 visit(low, piece)
@@ -441,6 +449,8 @@ def _critical(e: Expr, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], 
             above, below, _ = node.args
             natural = len(above) == 0 and all(b.is_integer and b.is_positive for b in below)
             demand(natural, lambda: f"{said(node)} is not known to be smooth")
+        elif isinstance(node, legendre):
+            demand(bool(node.args[0].is_integer), lambda: f"{said(node)} is not of integer degree")
         elif isinstance(node, Tuple):
             continue
         elif not isinstance(node, ENTIRE):

@@ -230,6 +230,14 @@ class Step:
         shape = {} if seen is None else {"seen": seen, "form": sympify(form)}
         return self._move("turn", said, integral=self._integral(integral), u=sympify(u), **shape)
 
+    def funk_hecke(self, u: Any, index: Symbol, integral: Integral | int | None = None) -> Step:
+        said = "the moments with each Legendre polynomial multiply (Funk and Hecke)"
+        return self._move("funk_hecke", said, integral=self._integral(integral), u=sympify(u), index=index)
+
+    def parities(self, total: Sum | None = None) -> Step:
+        chosen = total or next(iter(sorted(self.left.atoms(Sum), key=str)))
+        return self._move("parities", "even and odd terms apart", total=chosen)
+
     def bessel(self, order: Any, argument: Any, factor: Any = 1, integral: Integral | int | None = None) -> Step:
         said = f"the integral over the angle is a Bessel function of order {order} at {argument}"
         return self._move("bessel", said, integral=self._integral(integral), order=sympify(order),
