@@ -1,7 +1,7 @@
 """The four distributions of normals in mpmath, their cross-sections, and the arguments to try them at.
 
-The cross-sections are the closed forms of deon2016, mended, which `test_lobes` compares with the definition; that of the
-spherical Gaussian is the definition.
+The cross-sections are the closed forms of deon2016, mended, which `test_lobes` compares with the definition; that of
+the spherical Gaussian is the definition.
 """
 
 import numpy as np
@@ -19,6 +19,7 @@ def exactly(function):
         with mp.workdps(180):
             return function(*(mpf(float(argument)) for argument in arguments))
 
+    reference.inner = function
     return reference
 
 
@@ -150,7 +151,8 @@ def corners(dtype, roughnesses=ROUGHNESSES):
 def assert_joined(kernel, reference, u, roughness):
     """Value and slope are continuous along a short path, in a relative measure against the smooth reference.
 
-    The path crosses a switch in its middle. Were there a kink, the relative error would have one.
+    The path crosses a switch in its middle. A jump would show there in the relative error, and so would a kink: over a
+    path of 2e-4, relatively, one of 2e-11 of the slope is more than the tolerance.
     """
     values = kernel(u, roughness)
     ratio = [

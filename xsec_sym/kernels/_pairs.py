@@ -43,4 +43,3 @@ def exp_minus_times(x: np.ndarray, x_low: np.ndarray | float, factor: np.ndarray
     """
     shift = np.where(x > SHIFT, SHIFT, 0.0)
     return exp_minus(x - shift, x_low) * factor * np.exp(-shift)
-

@@ -55,6 +55,7 @@ def _sigma(u: np.ndarray, b: np.ndarray) -> np.ndarray:
     sigma *= v
     sigma += y
     sigma /= width
+    sigma[b == 0.0] = 0.25
     flat = np.flatnonzero(b == 1.0)
     sigma[flat] = np.maximum(u[flat], 0.0)
     sigma[~((v <= 1.0) & (b >= 0.0) & (b <= 1.0))] = np.nan
@@ -84,7 +85,7 @@ def sigma_ellipsoidal(u: np.typing.ArrayLike, b: np.typing.ArrayLike) -> np.ndar
     (y + v (y + log(1 - y) + c - log(1 + c)))/(b log((1 + b)/(1 - b))), where nothing cancels.
 
     >>> sigma_ellipsoidal([-0.5, 0, 0.5, 1], 0.5)
-    array([0.20672109, 0.24389341, 0.29647963, 0.35165957])
+    array([0.20367257, 0.24389787, 0.29343335, 0.35162028])
     """
     return elementwise(_sigma, u=u, b=b)
 
@@ -102,6 +103,6 @@ def ndf_ellipsoidal(u: np.typing.ArrayLike, b: np.typing.ArrayLike) -> np.ndarra
     `deon2016:26`, which is per unit cosine, over 2 pi.
 
     >>> ndf_ellipsoidal([-1, 0, 1], 0.5)
-    array([0.04828906, 0.07243358, 0.14486717])
+    array([0.04828969, 0.07243454, 0.14486907])
     """
     return elementwise(_ndf, u=u, b=b)

@@ -26,12 +26,13 @@ def _sigma(u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
 
 
 def _lambda(u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
-    cap = (1.0 - u) * (1.0 + u)
+    v = np.abs(u)
+    cap = (1.0 - v) * (1.0 + v)
     spread = alpha * alpha * cap
-    value = 0.5 * spread / (u * (np.sqrt(u * u + spread) + u))
-    extreme = np.flatnonzero(~((alpha > SMALLEST) & (alpha < LARGEST) & (u > SMALLEST)))
+    value = 0.5 * spread / (v * (np.sqrt(v * v + spread) + v))
+    extreme = np.flatnonzero(~((alpha > SMALLEST) & (alpha < LARGEST) & (v > SMALLEST)))
     if extreme.size:
-        spread, v = alpha[extreme] * np.sqrt(cap[extreme]), u[extreme]
+        spread, v = alpha[extreme] * np.sqrt(cap[extreme]), v[extreme]
         value[extreme] = 0.5 * (spread / v) * (spread / (np.hypot(v, spread) + v))
         value[extreme[spread == 0.0]] = 0.0
     value[~((u >= 0.0) & (u <= 1.0) & (alpha >= 0.0) & (alpha < np.inf))] = np.nan
@@ -98,6 +99,6 @@ def ndf_ggx(u: np.typing.ArrayLike, alpha: np.typing.ArrayLike) -> np.ndarray | 
     `deon2016:24`, as 1/(pi ((1 - u^2)/alpha + alpha u^2)^2), a sum of positive terms.
 
     >>> ndf_ggx([-0.5, 0, 0.5, 1], 0.5)
-    array([0.        , 0.        , 0.12054221, 1.27323954])
+    array([0.        , 0.        , 0.12054339, 1.27323954])
     """
     return elementwise(_ndf, u=u, alpha=alpha)

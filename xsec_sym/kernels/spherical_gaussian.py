@@ -4,13 +4,13 @@ from functools import cache
 
 import numpy as np
 
-from xsec_sym.kernels._pairs import Pair, complement, exp_minus, exp_minus_times, quotient, square
+from xsec_sym.kernels._pairs import Pair, complement, exp_minus, exp_minus_times, quotient
 from xsec_sym.kernels._support import elementwise, quick_two_sum, two_prod, two_square
 
-# The isotropic limit to all digits.
-SMALLEST_KAPPA = 1e-30
 # Below it sigma(u, alpha) = alpha f(u/alpha) to all digits, since corrections are of the order of alpha^2.
-SMALLEST_ALPHA = 1e-30
+SMALLEST = 1e-30
+# The isotropic limit to all digits, since corrections are of the order of kappa.
+LARGEST = 1e15
 NODES = 40
 # The integrand is negligible where it has fallen by exp(-NEGLIGIBLE).
 NEGLIGIBLE = 52.0
@@ -74,33 +74,32 @@ def _dark(v: np.ndarray, alpha: np.ndarray, kappa: np.ndarray) -> np.ndarray:
 
 
 def _sigma(u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
-    sigma = np.maximum(u, 0.0)
-    inside = np.flatnonzero((np.abs(u) <= 1.0) & (alpha > 0.0))
-    u, given = u[inside], alpha[inside]
-    alpha = np.maximum(given, SMALLEST_ALPHA)
-    scale = given / alpha
-    v = np.minimum(np.abs(u) / scale, 1.0)
-    kappa = np.maximum(2.0 / alpha**2, SMALLEST_KAPPA)
-    dark = scale * _dark(v, alpha, kappa)
+    known = (np.abs(u) <= 1.0) & (alpha >= 0.0)
+    sigma = np.where(known, np.maximum(u, 0.0), np.nan)
+    sigma[known & (alpha == np.inf)] = 0.25
+    inside = np.flatnonzero(known & (alpha > 0.0) & (alpha < np.inf))
+    u, alpha = u[inside], alpha[inside]
+    scale = np.minimum(alpha / SMALLEST, 1.0)
+    alpha = np.clip(alpha, SMALLEST, LARGEST)
+    kappa = 2.0 / alpha**2
+    dark = scale * _dark(np.minimum(np.abs(u) / scale, 1.0), alpha, kappa)
     # sigma(u) - sigma(-u) = (coth kappa - 1/kappa) u
     sigma[inside] = np.where(u > 0.0, dark + mean_cosine(kappa) * u, dark)
     return sigma
 
 
-def _sigma_or_nan(u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
-    return np.where((np.abs(u) <= 1.0) & (alpha >= 0.0), _sigma(u, alpha), np.nan)
-
-
 def _ndf(u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
-    kappa = np.maximum(2.0 / alpha / alpha, SMALLEST_KAPPA)
+    known = (np.abs(u) <= 1.0) & (alpha > 0.0)
+    alpha = np.minimum(alpha, LARGEST)
+    kappa = 2.0 / alpha / alpha
     x = 2.0 * (1.0 - u) / alpha / alpha
     x_low = np.zeros_like(x)
     chosen = np.flatnonzero((x > 0.4) & (x < 2000.0))
     height, height_low = quick_two_sum(1.0, -u[chosen])
-    x[chosen], x_low[chosen] = quotient(2.0 * height, 2.0 * height_low, *square(alpha[chosen], np.zeros(chosen.size)))
+    x[chosen], x_low[chosen] = quotient(2.0 * height, 2.0 * height_low, *two_square(alpha[chosen]))
     density = exp_minus_times(x, x_low, -kappa / np.expm1(-2.0 * kappa) / (2.0 * np.pi))
     density[x > 2000.0] = 0.0
-    density[~((np.abs(u) <= 1.0) & (alpha > 0.0))] = np.nan
+    density[~known] = np.nan
     return density
 
 
@@ -118,9 +117,9 @@ def sigma_spherical_gaussian(u: np.typing.ArrayLike, alpha: np.typing.ArrayLike)
     `deon2016:29`, folded into an integral of positive terms for the side turned away, by quadrature.
 
     >>> sigma_spherical_gaussian([-0.5, 0, 0.5, 1], 0.5)
-    array([0.00315812, 0.13300183, 0.44065812, 0.87500005])
+    array([0.01361484, 0.13414251, 0.45111495, 0.87504203])
     """
-    return elementwise(_sigma_or_nan, u=u, alpha=alpha)
+    return elementwise(_sigma, u=u, alpha=alpha)
 
 
 def ndf_spherical_gaussian(u: np.typing.ArrayLike, alpha: np.typing.ArrayLike) -> np.ndarray | np.floating:
@@ -137,6 +136,6 @@ def ndf_spherical_gaussian(u: np.typing.ArrayLike, alpha: np.typing.ArrayLike) -
     before the density does.
 
     >>> ndf_spherical_gaussian([-1, 0, 1], 0.5)
-    array([1.43283437e-07, 4.27124701e-04, 1.27323968e+00])
+    array([1.43284251e-07, 4.27124332e-04, 1.27323969e+00])
     """
     return elementwise(_ndf, u=u, alpha=alpha)
