@@ -91,40 +91,37 @@ def _tangent_square(u: np.ndarray, alpha: np.ndarray) -> Pair:
     return quotient(*complement(u), *square(*two_prod(alpha, u)))
 
 
-def _ierfc(a: np.ndarray) -> np.ndarray:
-    return np.exp(-a * a) * scaled_ierfc(np.minimum(a, LAST_SLOPE))
+def _ierfc_over_slope(u: np.ndarray, alpha: np.ndarray, a: np.ndarray, scaled: np.ndarray) -> np.ndarray:
+    """ierfc(a)/a for the exact a = u/(alpha sqrt(1 - u^2)), from its rounded value and the `scaled_ierfc` of that."""
+    x, x_low = _cotangent_square(u, alpha)
+    rounded, rounded_low = two_square(a)
+    # scaled_ierfc(a)/a varies about as a^-(3 - 2/(1 + a)), and the exact a is sqrt(rounded + rest).
+    rest = ((x - rounded) - rounded_low) + x_low
+    lost = (1.5 - 1.0 / (1.0 + a)) * rest / x
+    value = scaled / a
+    far = np.flatnonzero(x > FAR)
+    square = x[far]
+    y = 1.0 / square
+    value[far] = horner(_P_FAR, y) / (horner(_Q_FAR, y) * square * a[far])
+    lost[far] = y * (x_low[far] + 0.5 * rest[far])
+    return value * exp_minus(x, x_low + lost)
 
 
 def _steep(a: np.ndarray) -> np.ndarray:
-    """Where the rounding error of a is multiplied by too much for `_ierfc`."""
+    """Where the rounding error of a counts for much, and the value is not 0."""
     return (a > STEEP) & (a < LAST_SLOPE)
-
-
-def _ierfc_over_slope(u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
-    """ierfc(a)/a for a = u/(alpha sqrt(1 - u^2)), relatively accurate however large a is, from where it is `_steep`."""
-    x, x_low = _cotangent_square(u, alpha)
-    a = np.sqrt(x)
-    value = scaled_ierfc(a) / a
-    y, y_low = two_square(a)
-    # scaled_ierfc(a)/a varies about as a^-(3 - 2/(1 + a)), and here a = sqrt(x + x_low - rest).
-    rest = ((x - y) - y_low) + x_low
-    lost = (1.5 - 1.0 / (1.0 + a)) * rest / x
-    far = np.flatnonzero(x > FAR)
-    y = 1.0 / x[far]
-    value[far] = horner(_P_FAR, y) / (horner(_Q_FAR, y) * x[far] * a[far])
-    lost[far] = y * (x_low[far] + 0.5 * rest[far])
-    return value * exp_minus(x, x_low + lost)
 
 
 def _sigma(u: np.ndarray, alpha: np.ndarray, double: bool) -> np.ndarray:
     v = np.abs(u)
     spread = alpha * np.sqrt((1.0 - v) * (1.0 + v))
     a = v / spread
+    scaled = scaled_ierfc(np.minimum(a, LAST_SLOPE))
     # What the viewer of the dark side sees. For the bright side it is an addition to u, and its error counts less.
-    sigma = 0.5 * spread * _ierfc(a)
+    sigma = 0.5 * spread * scaled * np.exp(-a * a)
     if double:
-        steep = np.flatnonzero((u < 0.0) & _steep(a))
-        sigma[steep] = 0.5 * v[steep] * _ierfc_over_slope(v[steep], alpha[steep])
+        some = np.flatnonzero((u < 0.0) & _steep(a))
+        sigma[some] = 0.5 * v[some] * _ierfc_over_slope(v[some], alpha[some], a[some], scaled[some])
     sigma[spread == 0.0] = 0.0
     sigma += np.maximum(u, 0.0)
     sigma[~((v <= 1.0) & (alpha >= 0.0) & (alpha < np.inf))] = np.nan
@@ -133,10 +130,11 @@ def _sigma(u: np.ndarray, alpha: np.ndarray, double: bool) -> np.ndarray:
 
 def _lambda(u: np.ndarray, alpha: np.ndarray, double: bool) -> np.ndarray:
     a = np.abs(u) / (alpha * np.sqrt((1.0 - u) * (1.0 + u)))
-    value = 0.5 * _ierfc(a) / a
+    scaled = scaled_ierfc(np.minimum(a, LAST_SLOPE))
+    value = 0.5 * scaled * np.exp(-a * a) / a
     if double:
-        steep = np.flatnonzero(_steep(a))
-        value[steep] = 0.5 * _ierfc_over_slope(u[steep], alpha[steep])
+        some = np.flatnonzero(_steep(a))
+        value[some] = 0.5 * _ierfc_over_slope(u[some], alpha[some], a[some], scaled[some])
     value[(alpha == 0.0) | (u == 1.0)] = 0.0
     value[~((u >= 0.0) & (u <= 1.0) & (alpha >= 0.0) & (alpha < np.inf))] = np.nan
     return value

@@ -51,7 +51,10 @@ def _sigma(u: np.ndarray, b: np.ndarray) -> np.ndarray:
     y = (1.0 - v) * (c * c) / (1.0 + root)
     sigma = np.log1p(-y)
     sigma += y
-    sigma += np.where(u < 0.0, log1p_defect(c), log1p_defect(-c))
+    if c.size < u.size:
+        sigma += np.where(u < 0.0, log1p_defect(c), log1p_defect(-c))
+    else:
+        sigma += log1p_defect(np.where(u < 0.0, c, -c))
     sigma *= v
     sigma += y
     sigma /= width
