@@ -13,10 +13,10 @@ ULPS = 8
 
 
 def exactly(function):
-    """The function of the numbers that the doubles or singles are, at 180 digits."""
+    """The function of the numbers that the doubles or singles are, at 180 digits or more."""
 
     def reference(*arguments):
-        with mp.workdps(180):
+        with mp.workdps(max(180, mp.dps)):
             return function(*(mpf(float(argument)) for argument in arguments))
 
     reference.inner = function

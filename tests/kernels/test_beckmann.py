@@ -28,7 +28,7 @@ def samples(quantity, n, dtype=np.float64, seed=22):
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 @pytest.mark.parametrize("quantity", CASES)
 def test_accuracy(quantity, dtype):
-    """Largest found among 54 000 points each: sigma 5.3, lambda 5.8, ndf 5.2 ulp; 0.5 in float32.
+    """Largest found among 54 000 points each: sigma 5.9, lambda 6.0, ndf 5.9 ulp; 0.5 in float32.
 
     An ulp of a subnormal number is 5e-324, which is the absolute floor.
     """
@@ -82,7 +82,7 @@ def test_rationals_are_the_function_they_stand_for():
 
 
 @pytest.mark.parametrize("quantity", ["sigma", "lambda"])
-@pytest.mark.parametrize("a", [beckmann.STEEP, np.sqrt(beckmann.FAR)])
+@pytest.mark.parametrize("a", [beckmann.STEEP_SLOPE, np.sqrt(beckmann.FAR)])
 def test_value_and_slope_are_continuous_across_switches(quantity, a):
     alpha = np.full(400, 0.3)
     t = (a * (1 + np.linspace(-1e-4, 1e-4, 400))) * alpha
@@ -91,7 +91,7 @@ def test_value_and_slope_are_continuous_across_switches(quantity, a):
     lobes.assert_joined(kernel, reference, -u if quantity == "sigma" else u, alpha)
 
 
-@pytest.mark.parametrize(("x", "alpha"), [(beckmann.STEEP, 0.3), (_pairs.SHIFT, 1e4)])
+@pytest.mark.parametrize(("x", "alpha"), [(_pairs.STEEP, 0.3), (_pairs.SHIFT, 1e4)])
 def test_density_is_continuous_across_switches(x, alpha):
     tangent = np.sqrt(x * (1 + np.linspace(-1e-4, 1e-4, 400))) * alpha
     lobes.assert_joined(ndf_beckmann, lobes.ndf_beckmann, 1 / np.sqrt(1 + tangent**2), np.full(400, alpha))

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
@@ -154,6 +154,7 @@ def test_ends_of_the_domain(kernel):
         assert np.isnan(kernel([-5e-324, -0.5, -1.0], 0.5)).all()
 
 
+@settings(deadline=None)
 @given(st.floats(), st.floats())
 def test_no_wrong_finite_value_for_any_arguments(u, shape):
     for kernel in KERNELS:
@@ -166,13 +167,15 @@ def test_no_wrong_finite_value_for_any_arguments(u, shape):
         assert not value < 0, named(kernel)
 
 
+@settings(deadline=None)
 @given(COSINE, st.floats(1e-300, 1e300))
 def test_extreme_roughness(u, alpha):
     """No square may leave the range of doubles: these hold for roughnesses of any size, to a looser tolerance."""
     pairs = [(kernels.sigma_beckmann, lobes.sigma_beckmann), (kernels.sigma_ggx, lobes.sigma_ggx)]
     pairs += [(kernels.ndf_beckmann, lobes.ndf_beckmann), (kernels.ndf_ggx, lobes.ndf_ggx)]
     for kernel, reference in pairs:
-        error, _ = lobes.worst(kernel, reference, np.array([u]), np.array([alpha]))
+        with mp.workdps(1400):
+            error, _ = lobes.worst(kernel, reference, np.array([u]), np.array([alpha]))
         assert error <= (4096 if kernel is kernels.ndf_beckmann and not 1e-100 < alpha < 1e100 else lobes.ULPS)
 
 
@@ -195,9 +198,10 @@ def test_the_isotropic_limit_is_exact(dtype):
         assert np.allclose(kernels.ndf_ellipsoidal(u, dtype(tiny)), sphere, rtol=2 * eps, atol=0)
         assert np.allclose(kernels.ndf_spherical_gaussian(u, dtype(huge)), sphere, rtol=2 * eps, atol=0)
         assert np.allclose(kernels.sigma_ellipsoidal(u, dtype(tiny)), 0.25, rtol=2 * eps, atol=0)
-        assert np.allclose(kernels.sigma_spherical_gaussian(u, dtype(huge)), 0.25, rtol=1e-14 + eps, atol=0)
+        assert np.allclose(kernels.sigma_spherical_gaussian(u, dtype(huge)), 0.25, rtol=3e-15 + eps, atol=0)
 
 
+@settings(deadline=None)
 @given(COSINE, SHAPE)
 def test_two_sides_differ_by_the_mean_cosine(u, shape):
     u, eps = abs(u), np.finfo(float).eps
@@ -216,6 +220,7 @@ def test_two_sides_differ_by_the_mean_cosine(u, shape):
         assert abs(facing - opposite - mean * u) <= 16 * eps * facing, named(sigma)
 
 
+@settings(deadline=None)
 @given(st.floats(1e-150, 1), st.floats(0, 1e4))
 def test_lambda_is_the_dark_side(u, alpha):
     eps = np.finfo(float).eps
@@ -225,6 +230,7 @@ def test_lambda_is_the_dark_side(u, alpha):
         assert abs(sigma(u, alpha) - (1 + value) * u) <= 16 * eps * sigma(u, alpha)
 
 
+@settings(deadline=None)
 @given(COSINE, COSINE, st.floats(1e-4, 1))
 def test_sigma_rises_with_the_cosine(u, v, shape):
     for sigma in SIGMAS:

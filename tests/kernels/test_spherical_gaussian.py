@@ -5,7 +5,7 @@ from mpmath import mp, mpf
 from tests.kernels import lobes
 from xsec_sym.kernels import _pairs, ndf_spherical_gaussian, sigma_spherical_gaussian, spherical_gaussian
 
-RELATIVE = 1e-14
+RELATIVE = 3e-15
 
 
 def cosines_in_view(rng, alpha):
@@ -25,7 +25,7 @@ def largest_error(u, alpha):
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_accuracy(seed):
-    """Largest found among 2000 points: 4.9e-15."""
+    """Largest found among 1600 points: 1.2e-15."""
     rng = np.random.default_rng(seed)
     alpha = 10 ** rng.uniform(-4, 4, 60)
     assert largest_error(cosines_in_view(rng, alpha), alpha) < RELATIVE
@@ -45,6 +45,17 @@ def test_float32():
     assert lobes.worst(sigma_spherical_gaussian, lobes.sigma_spherical_gaussian, u, alpha)[0] <= 1
 
 
+def test_the_rule_is_rounded_once():
+    nodes, weights = spherical_gaussian._rule()
+    n = spherical_gaussian.NODES
+    with mp.workdps(50):
+        for node, weight in zip(nodes, weights, strict=True):
+            x = mp.findroot(lambda z: mp.legendre(n, z), mpf(2 * node - 1))
+            slope = n * (x * mp.legendre(n, x) - mp.legendre(n - 1, x)) / (x * x - 1)
+            assert abs(node / ((1 + x) / 2) - 1) < 2e-16
+            assert abs(weight * (1 - x * x) * slope**2 - 1) < 2e-16
+
+
 def density_samples(n, dtype=np.float64):
     rng = np.random.default_rng(28)
     u = lobes.cosines(rng, n)
@@ -55,7 +66,7 @@ def density_samples(n, dtype=np.float64):
 
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 def test_density(dtype):
-    """Largest found among 12 000 points: 3.3 ulp; 0.5 in float32."""
+    """Largest found among 37 000 points: 3.6 ulp; 0.5 in float32."""
     u, alpha = density_samples(300, dtype)
     error, where = lobes.worst(ndf_spherical_gaussian, lobes.ndf_spherical_gaussian, u, alpha)
     assert error <= (lobes.ULPS if dtype == np.float64 else 1), where
@@ -78,7 +89,7 @@ def test_a_density_outlives_its_exponential():
     assert lobes.worst(ndf_spherical_gaussian, lobes.ndf_spherical_gaussian, u, alpha)[0] <= lobes.ULPS
 
 
-@pytest.mark.parametrize(("x", "alpha"), [(0.4, 0.3), (_pairs.SHIFT, 0.01)])
+@pytest.mark.parametrize(("x", "alpha"), [(_pairs.STEEP, 0.3), (_pairs.SHIFT, 0.01)])
 def test_density_is_continuous_across_switches(x, alpha):
     u = 1 - x * (1 + np.linspace(-1e-4, 1e-4, 400)) * alpha**2 / 2
     lobes.assert_joined(ndf_spherical_gaussian, lobes.ndf_spherical_gaussian, u, np.full(400, alpha))
@@ -93,7 +104,7 @@ def assert_smooth(u, alpha):
         ]
     )
     assert np.abs(ratio).max() < RELATIVE
-    assert abs(ratio[: len(ratio) // 2].mean() - ratio[len(ratio) // 2 :].mean()) < 5e-15
+    assert abs(ratio[: len(ratio) // 2].mean() - ratio[len(ratio) // 2 :].mean()) < 1e-15
 
 
 @pytest.mark.parametrize("u", [-0.9, 0.2])

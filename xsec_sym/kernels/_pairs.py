@@ -6,8 +6,12 @@ from xsec_sym.kernels._support import quick_two_sum, two_prod, two_square
 
 Pair = tuple[np.ndarray, np.ndarray]
 
-# exp(-x) is a normal number up to here, and so is exp(-SHIFT) exp(-(x - SHIFT)) y for any y of moderate size.
+# From this exponent on its rounding error costs more than half an ulp.
+STEEP = 0.5
+# exp(-x) is a normal number up to here.
 SHIFT = 700.0
+# exp(-x) y is 0 from here on for any factor y of this project, x^2 alpha^2 included.
+GONE = 3000.0
 
 
 def complement(u: np.ndarray) -> Pair:

