@@ -14,10 +14,13 @@ from xsec_sym.exact.distributions import (
     ggx,
     spherical_gaussian,
 )
+from xsec_sym.exact.heightfields import NormalsBeckmann, NormalsGGX
 from xsec_sym.exact.ring import AZIMUTH, RingCrossSection, RingMean, RingSpread, RingTilt, facing
 
 __all__ = [
     "AZIMUTH",
+    "NormalsBeckmann",
+    "NormalsGGX",
     "RingCrossSection",
     "RingMean",
     "RingSpread",

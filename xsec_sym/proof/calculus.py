@@ -31,6 +31,7 @@ from sympy import (
 )
 from sympy.core.function import AppliedUndef
 
+from xsec_sym.proof.ends import end_value, tends_to
 from xsec_sym.proof.piece import Piece, times
 from xsec_sym.proof.rules import (
     SWITCHES,
@@ -50,7 +51,7 @@ BINDERS = (Integral, Sum)
 TAME = (Symbol, Add, Mul, sin, cos, acos, atan, Abs, Heaviside, AppliedUndef)
 
 
-def _parts(goal: Goal, integral: Integral) -> tuple[Expr, Symbol, Expr, Expr, Piece, Piece]:
+def parts_of(goal: Goal, integral: Integral) -> tuple[Expr, Symbol, Expr, Expr, Piece, Piece]:
     demand(occurs(integral, goal.left), lambda: f"{integral} does not occur")
     demand(len(integral.limits) == 1 and len(integral.limits[0]) == 3, lambda: f"{integral} is not over one interval")
     x, low, high = integral.limits[0]
@@ -70,11 +71,11 @@ def outer_names(goal: Goal, integral: Integral) -> set[Symbol]:
 
 def split(goal: Goal, integral: Integral, points: list[Expr]) -> list[Goal]:
     """One integral as several, cut at ordered points; on each part every switch takes its one branch."""
-    f, x, low, high, outer, _ = _parts(goal, integral)
+    f, x, low, high, outer, _ = parts_of(goal, integral)
     ends = [low, *points, high]
     total = []
     for a, b in pairwise(ends):
-        demand(outer.sign(b - a) in ("+", ">=", "0"), lambda: f"the cut {b} is not shown to lie above {a}")
+        demand(outer.order(a, b) in ("+", ">=", "0"), lambda: f"the cut {b} is not shown to lie above {a}")
         body = branch(f, x, a, b, outer)
         total.append(Integral(body, (x, a, b)) if body != 0 else 0)
     return [goal.with_left(goal.left.xreplace({integral: Add(*total)}))]
@@ -109,7 +110,7 @@ def linear(goal: Goal, integral: Integral, terms: list[Expr]) -> list[Goal]:
 
     Where more than one term is not plainly integrable, each of those must be given a value before the goal is closed.
     """
-    f, x, low, high, _, inner = _parts(goal, integral)
+    f, x, low, high, _, inner = parts_of(goal, integral)
     demand(inner.is_zero(f - Add(*terms)), lambda: f"the terms do not add up to {f}")
     drawn, doubtful = [], 0
     for term in terms:
@@ -142,7 +143,7 @@ def exchange(
 
     The sign may rest on a lemma: its left side is then read as its right side.
     """
-    f, x, low, high, outer, inner = _parts(goal, integral)
+    f, x, low, high, outer, inner = parts_of(goal, integral)
     outside, rest = f.as_independent(Integral, as_Add=False)
     demand(
         isinstance(rest, Integral) and len(rest.limits) == 1, lambda: f"{f} is not a factor times one inner integral"
@@ -150,7 +151,7 @@ def exchange(
     y, a, b = rest.limits[0]
     demand(not (a.has(x) or b.has(x) or low.has(y) or high.has(y)), "the limits depend on the other variable")
     demand(not outside.has(y), lambda: f"{y} is used twice in {integral}")
-    ordered = outer.sign(high - low), inner.sign(b - a)
+    ordered = outer.order(low, high), inner.order(a, b)
     demand(set(ordered) <= {"+", ">=", "0"}, "the limits are not shown to be in order")
     deepest = inner.inside(y, a, b)
     integrand = outside * rest.function
@@ -166,13 +167,17 @@ def exchange(
 
 def substitute(goal: Goal, integral: Integral, new: Symbol, g: Expr, low: Expr, high: Expr) -> list[Goal]:
     """x = g(new) with g strictly monotone between low and high, which it maps to the limits."""
-    f, x, a, b, outer, _ = _parts(goal, integral)
+    f, x, a, b, outer, _ = parts_of(goal, integral)
     used = integral.atoms(Symbol) | outer_names(goal, integral) | goal.right.free_symbols
     demand(new not in used, lambda: f"{new} already stands for something else")
-    demand(outer.is_zero(g.subs(new, low) - a) and outer.is_zero(g.subs(new, high) - b), "the limits do not match")
-    rising = outer.sign(high - low) in ("+", ">=", "0")
+    rising = outer.order(low, high) in ("+", ">=", "0")
     inner = outer.inside(new, *((low, high) if rising else (high, low)))
     smooth(g, new, inner)
+    for near, far, side in ((low, a, "low" if rising else "high"), (high, b, "high" if rising else "low")):
+        if {near, far} & {oo, -oo}:
+            demand(tends_to(g, new, near, side, far, outer), lambda: f"{g} is not shown to tend to {far}")
+        else:
+            demand(outer.is_zero(g.subs(new, near) - far), "the limits do not match")
     slope = diff(g, new)
     demand(inner.sign(slope) in ("+", "-"), lambda: f"{g} is not shown to be monotone")
     body = f.xreplace({x: g}) * slope
@@ -186,7 +191,7 @@ def antiderivative(goal: Goal, integral: Integral, primitive: Expr, flat: str = 
 
     ``flat`` names an end, low or high, where the primitive is not defined but vanishes faster than any power.
     """
-    f, x, low, high, outer, _ = _parts(goal, integral)
+    f, x, low, high, outer, _ = parts_of(goal, integral)
     demand(flat in ("", "low", "high"), "an end is low or high")
     value = _difference(f, primitive, x, low, high, outer, flat)
     return [goal.with_left(goal.left.xreplace({integral: value}))]
@@ -202,8 +207,7 @@ def _difference(f: Expr, primitive: Expr, x: Symbol, low: Expr, high: Expr, oute
         if name == flat:
             vanishes_at(primitive, x, end, inner, outer)
         else:
-            continuous_at(primitive, x, end, outer)
-            values[name] = primitive.subs(x, end)
+            values[name] = end_value(primitive, x, end, name, outer)
     return values["high"] - values["low"]
 
 
@@ -238,7 +242,7 @@ def recurrence(
     ``base`` is a primitive of the integrand at index 0. ``following`` f(index + 1) + ``present`` f(index) is the
     derivative of ``primitive``, and ``closed`` satisfies the recurrence that this gives.
     """
-    f, x, low, high, outer, inner = _parts(goal, integral)
+    f, x, low, high, outer, inner = parts_of(goal, integral)
     demand(index.is_integer and index.is_nonnegative, lambda: f"{index} does not run over 0, 1, 2, ...")
     demand(not (low.has(index) or high.has(index)), "the limits depend on the index")
     demand(not any(e.has(index) for e, _ in outer.facts), "what is known of the index need not hold for the next one")
@@ -273,7 +277,7 @@ def diverges(goal: Goal, integral: Integral, minorant: Expr, strength: Expr, ord
     With d the distance to the end in question, the minorant is strength d^(-1 - order), strength > 0: its primitive
     is unbounded. Every other term is an integral of something not negative, or finite.
     """
-    f, x, low, high, outer, inner = _parts(goal, integral)
+    f, x, low, high, outer, inner = parts_of(goal, integral)
     demand(goal.right == oo, "the claim is not that the quantity is infinite")
     demand(end in ("low", "high"), "the end is either low or high")
     demand(order >= 0, "an integrable minorant proves nothing")
@@ -294,7 +298,7 @@ def diverges(goal: Goal, integral: Integral, minorant: Expr, strength: Expr, ord
             demand(outer.sign(factor) == "+", lambda: f"{factor} may vanish")
         elif term.has(Integral):
             other = Goal(rest, goal.right, goal.piece)
-            g, y, a, b, around, _ = _parts(other, rest)
+            g, y, a, b, around, _ = parts_of(other, rest)
             demand(around.sign(b - a) in ("+", ">=", "0"), lambda: f"the limits of {rest} are not in order")
             demand(
                 around.inside(y, a, b).sign(branch(g, y, a, b, around)) in ("+", ">=", "0"),
@@ -305,4 +309,15 @@ def diverges(goal: Goal, integral: Integral, minorant: Expr, strength: Expr, ord
     return []
 
 
-__all__ = ["antiderivative", "diverges", "exchange", "linear", "recurrence", "split", "substitute", "telescope"]
+__all__ = [
+    "antiderivative",
+    "diverges",
+    "exchange",
+    "linear",
+    "outer_names",
+    "parts_of",
+    "recurrence",
+    "split",
+    "substitute",
+    "telescope",
+]

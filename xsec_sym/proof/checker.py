@@ -11,7 +11,7 @@ from typing import Any
 
 from sympy import Symbol
 
-from xsec_sym.proof import calculus, rules, wire
+from xsec_sym.proof import calculus, plane, rules, wire
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.field import Unsettled
 from xsec_sym.proof.rules import Goal, Refused
@@ -38,6 +38,7 @@ MOVES: dict[str, Callable[..., list[Goal]]] = {
         calculus.recurrence,
         calculus.telescope,
         calculus.diverges,
+        plane.polar,
     )
 }
 

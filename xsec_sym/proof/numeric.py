@@ -42,6 +42,8 @@ class Outcome:
 
 def reduced(e: Expr, lemmas: Iterable[Claim]) -> Expr:
     """Defined objects written by the equations that were proved for them, so that one integration is left."""
+    lemmas = list(lemmas)
+    e = _opened(e, tuple(lemma.left.func for lemma in lemmas))
     for lemma in lemmas:
         head, names = lemma.left.func, lemma.left.args
         for node in [n for n in preorder_traversal(e) if isinstance(n, head)]:
@@ -50,6 +52,15 @@ def reduced(e: Expr, lemmas: Iterable[Claim]) -> Expr:
             if rewritten.free_symbols <= e.free_symbols:  # else SymPy has folded branches out of a nested integral
                 e = distributed(rewritten)
     return distributed(e)
+
+
+def _opened(e: Expr, heads: tuple[Any, ...]) -> Expr:
+    """Definitions that hold an object of one of these heads are written out."""
+    for node in [n for n in preorder_traversal(e) if hasattr(n, "definition") and not isinstance(n, heads)]:
+        whole = node.definition()
+        if any(isinstance(n, heads) for n in preorder_traversal(whole)):
+            e = e.xreplace({node: whole})
+    return e
 
 
 def distributed(e: Expr) -> Expr:

@@ -20,6 +20,7 @@ from sympy import (
     Gt,
     Le,
     Lt,
+    Max,
     Mul,
     Ne,
     Not,
@@ -144,7 +145,7 @@ class Piece:
             # the bound variable only shares its name with one that is free here: nothing known of that one holds
             apart = [fact for fact in self.facts if not fact[0].has(x)]
             return Piece(apart, [r for r in self.ranges if r.symbol != x], self.local)._between(inner, limits)
-        order = self.sign(high - low)
+        order = self.order(low, high)
         if order == "-":
             inner = Interval(x, high, low, True, True)
         elif order is None or order == "<=":
@@ -191,6 +192,16 @@ class Piece:
 
     # --- signs -------------------------------------------------------------------------------------
 
+    def order(self, low: Expr, high: Expr) -> Sign:
+        """The sign of high - low, where either may be infinite."""
+        if low == high:
+            return "0"
+        if low == -oo or high == oo:
+            return "+"
+        if low == oo or high == -oo:
+            return "-"
+        return self.sign(high - low)
+
     def sign(self, expression: Expr) -> Sign:
         expression = sympify(expression)
         if expression not in self._signs:
@@ -209,6 +220,10 @@ class Piece:
                 return product
         if not expression.free_symbols:
             return _constant_sign(expression)
+        if isinstance(expression, Max):
+            above = {self.sign(a) for a in expression.args}
+            if above & {"+", ">=", "0"}:
+                return "+" if "+" in above else ">="
         if isinstance(expression, Piecewise):
             return self._sign_of_branches(expression)
         try:

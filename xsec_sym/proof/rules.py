@@ -206,6 +206,14 @@ def unfolded(e: Expr) -> Expr:
         e = e.xreplace(found)
 
 
+def opened(e: Expr) -> Expr:
+    """A defined object written out once, provided that its definition binds no name of its arguments."""
+    whole = e.definition()
+    binders = {limit[0] for node in preorder_traversal(whole) if isinstance(node, Integral | Sum) for limit in node.limits}
+    demand(not binders & e.free_symbols, lambda: f"{binders & e.free_symbols} would be captured by {e}")
+    return whole
+
+
 def _nodes(e: Expr) -> Iterable[Expr]:
     return (n for n in preorder_traversal(e) if hasattr(n, "definition"))
 
@@ -253,6 +261,8 @@ def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr]) -> list[Goal]
     demand(not bound & taken, lambda: f"{bound & taken} would be captured by {proven.id}")
     old = proven.left.subs(mapping, simultaneous=True)
     new = proven.form.subs(mapping, simultaneous=True)
+    if not occurs(old, goal.left) and hasattr(old, "definition"):
+        old = opened(old)
     demand(occurs(old, goal.left), lambda: f"the left side of {proven.id}, {old}, does not occur")
     for piece in contexts(goal, old):
         for variable in proven.domain.variables:

@@ -197,6 +197,10 @@ class Step:
         return self._move("diverges", said, integral=self._integral(integral), minorant=sympify(minorant),
                           strength=sympify(strength), order=order, end=end)  # fmt: skip
 
+    def polar(self, radius: Symbol, azimuth: Symbol, integral: Integral | int | None = None) -> Step:
+        said = f"polar coordinates, {radius} and {azimuth}, for the whole plane"
+        return self._move("polar", said, integral=self._integral(integral), radius=radius, azimuth=azimuth)
+
     def close(self) -> Step:
         return self._move("close", "both sides are the same polynomial in the same atoms")
 
