@@ -6,7 +6,7 @@ the ring lemma.
 
 from sympy import Heaviside, Integral, Max, Piecewise, erf, exp, pi, sqrt, symbols
 
-from derivations.deon2016.cells import AT, CLOSED, u, x
+from derivations.deon2016.cells import CLOSED, superpose, u, x
 from xsec_sym.exact import AZIMUTH, NormalsBeckmann, RingSpread, SigmaBeckmann, beckmann
 from xsec_sym.proof import Source, interval
 from sympy import oo
@@ -64,6 +64,7 @@ slopes = paper.claim(
     where=[interval(u_i, -1, 1), ROUGH],
     reading=AREA,
     points={p: [u_i / s]},
+    reduces=CLOSED,
 )
 
 
@@ -75,6 +76,109 @@ def rings_of_slopes(step):
     step.rewrite(inner.function, Max(0, u_i - p * s) * exp(-(p**2 + q**2) / alpha**2))
     step.substitute(w, -w, oo, -oo, step.left.function.atoms(Integral).pop())
     step.polar(r, AZIMUTH)
+
+
+
+paper.definition("21", "the change of variables from cosine to slopes", left=u, printed=cosine,
+                 reading="the normal is (-p, -q, 1) over its length, and u is its cosine")  # fmt: skip
+
+jacobian = paper.claim(
+    "21.jacobian",
+    "its Jacobian is u^3: the slopes up to any steepness fill the cone of normals that they belong to",
+    left=Integral(1, (x, 1 / sqrt(1 + y**2), 1)),
+    corrected=Integral(cosine.subs({p: r, q: 0}) ** 3 * r, (r, 0, y)),
+    where=[interval(y, 0, oo, open="right")],
+    reading="d omega = u^3 dp dq, written in polar slopes: -du = u^3 r dr",
+    statement=True,
+)
+
+
+@jacobian.proof
+def cone_of_normals(step):
+    step.antiderivative(x)
+    step.swap().antiderivative(-1 / sqrt(1 + r**2))
+
+
+ERF = erf(u_i / (alpha * s))
+PRINTED_TAIL = alpha * s * exp(u_i**2 / (alpha**2 * (1 - u_i**2))) / sqrt(pi)
+TAIL = alpha * s * exp(-(u_i**2) / (alpha**2 * (1 - u_i**2))) / sqrt(pi)
+
+closed = paper.claim(
+    "22",
+    "the cross-section of Beckmann's distribution",
+    left=SigmaBeckmann(u_i, alpha),
+    printed=(u_i * (1 + ERF) + PRINTED_TAIL) / 2,
+    corrected=(u_i * (1 + ERF) + TAIL) / 2,
+    edit="put back the minus sign of the exponent: exp(-u^2 / (alpha^2 (1 - u^2)))",
+    where=[interval(u_i, -1, 1, open=True), ROUGH],
+    reading=AREA + "; at the poles the limits are meant",
+    reduces=CLOSED,
+)
+
+
+@closed.proof
+def one_slope_after_the_other(step):
+    """Across the viewing direction the slopes are Gaussian; along it they are seen up to p = u / sqrt(1 - u^2)."""
+    step.lemma(slopes).unfold().nest()
+    across = step.left.atoms(Integral)
+    step.split(u_i / s, integral=next(i for i in across if i.limits[0][0] == p))
+    gauss = exp(-(p**2) / alpha**2)
+    step.fact(u_i - p * s, s * (u_i / s - p), inside=(p, -oo, u_i / s))
+    step.exchange()
+    step.antiderivative(alpha * sqrt(pi) / 2 * gauss * erf(q / alpha), next(i for i in step.left.atoms(Integral) if i.limits[0][0] == q))
+    step.antiderivative(pi * alpha**2 * (u_i * erf(p / alpha) / 2 + alpha * s * gauss / (2 * sqrt(pi))))
+
+
+# --- by the second component ----------------------------------------------------------------------------
+
+tau = s
+second = paper.claim(
+    "23",
+    "the second component of Beckmann's cross-section",
+    left=Integral(RingSpread(x, u_i) * beckmann(x, alpha), (x, 0, 1)),
+    printed=PRINTED_TAIL / 2,
+    corrected=TAIL / 2,
+    edit="put back the minus sign of the exponent, as in (22)",
+    where=[interval(u_i, -1, 1, open=True), ROUGH],
+    reading=AREA,
+    reduces=CLOSED,
+    points={x: [s]},
+)
+
+
+@second.proof
+def gaussian_moment(step):
+    """With x = tau / sqrt(1 + y^2) the band becomes a Gaussian of the width alpha tau, weighted with y^2."""
+    c = alpha * tau
+    step.lemma("deon2016:11", {u: x, u_n: u_i})
+    step.fact(1 - u_i**2 - x**2, (tau - x) * (tau + x), inside=(x, 0, tau))
+    step.fact(1 - u_i**2 - x**2, (tau - x) * (tau + x), inside=(x, tau, 1))
+    step.split(tau)
+    step.substitute(y, tau / sqrt(1 + y**2), oo, 0)
+    gauss = exp(-(y**2) / c**2)
+    scale = 2 * exp(-(u_i**2) / c**2) / (pi * c**2)
+    step.antiderivative(scale * (-(c**2) / 2 * y * gauss + sqrt(pi) * c**3 / 4 * erf(y / c)))
+
+
+again = paper.claim(
+    "22.rings",
+    "the same cross-section from its second component, by the ring lemma",
+    left=SigmaBeckmann(u_i, alpha),
+    corrected=(u_i * (1 + ERF) + TAIL) / 2,
+    where=[interval(u_i, -1, 1, open=True), ROUGH],
+    reading=AREA + "; the longer route: it needs (23), the exchange of two integrals, and one case for each side",
+    reduces=CLOSED,
+)
+
+
+@again.proof
+def by_the_ring_lemma(step):
+    root = sqrt(1 - t**2)
+    beyond = -alpha * root / (2 * sqrt(pi) * t) * exp(-(t**2) / (alpha * root) ** 2) - erf(t / (alpha * root)) / 2
+
+    mean = exp(-(1 / x**2 - 1) / alpha**2)
+    superpose(step, SigmaBeckmann(u_i, alpha), u_i, beckmann(x, alpha), second, mean, beyond, low=0)
+
 
 if __name__ == "__main__":
     paper.tell()

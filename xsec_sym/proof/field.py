@@ -372,9 +372,11 @@ class Field(Atoms):
         hidden = Symbol(_hidden("x", e), real=True)
         limits = (hidden, self._argument(low), self._argument(high))
         if (len(top.terms()) > 1 and not all(_bounded(inner.meaning.get(a, a)) for a in moving)) or inside != 1:
-            # term by term the integral might not exist: such an integrand stays whole
-            body = inner._meant(top.as_expr() / inside)
-            return self.atomise(inner._meant(1 / outside)) * self._atom(
+            # term by term the integral might not exist: such an integrand stays whole, but for its constant factors
+            content, parts = top.factor_list()
+            drawn = Mul(content, *(f.as_expr() ** k for f, k in parts if not f.free_symbols & moving))
+            body = inner._meant(Mul(*(f.as_expr() ** k for f, k in parts if f.free_symbols & moving)) / inside)
+            return self.atomise(inner._meant(drawn / outside)) * self._atom(
                 "int", Integral(body.xreplace({x: hidden}), limits)
             )
         coefficients: dict[Expr, Expr] = {}

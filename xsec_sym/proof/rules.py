@@ -170,8 +170,11 @@ def fact(
 # --- equations ----------------------------------------------------------------------------------------
 
 
-def unfold(goal: Goal) -> list[Goal]:
-    """Replace every defined object by its definition, on both sides."""
+def unfold(goal: Goal, part: Expr | None = None) -> list[Goal]:
+    """Replace every defined object by its definition, on both sides; or only one, on the left, and only once."""
+    if part is not None:
+        demand(occurs(part, goal.left) and hasattr(part, "definition"), lambda: f"{part} is no defined object here")
+        return [goal.with_left(goal.left.xreplace({part: opened(part)}))]
     return [replace(goal, left=unfolded(goal.left), right=unfolded(goal.right))]
 
 

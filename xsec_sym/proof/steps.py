@@ -115,7 +115,9 @@ class Step:
                      "mapping": {sympify(k): sympify(v) for k, v in (mapping or {}).items()}}  # fmt: skip
         return self._move("fact", said, **data)
 
-    def unfold(self) -> Step:
+    def unfold(self, part: Any = None) -> Step:
+        if part is not None:
+            return self._move("unfold", f"write out {part}", part=sympify(part))
         return self._move("unfold", "write out the definitions")
 
     def swap(self) -> Step:
