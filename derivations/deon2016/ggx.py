@@ -16,13 +16,24 @@ ROUGH = interval(alpha, 0, oo, open=True)
 tau = sqrt(1 - u_i**2)
 axis = sqrt(alpha**2 - alpha**2 * u_i**2 + u_i**2)  # the half-axis that the spheroid shows across the view
 
-paper.definition(
-    "24",
-    "the GGX distribution of normals",
+PRINTED = Piecewise((alpha**2 / (pi * u**4 * (alpha**2 + 1 / u**2 - 1) ** 2), u > 0), (0, True))
+
+paper.definition("24", "the GGX distribution of normals", left=NormalsGGX(u, alpha), printed=PRINTED, reading=AREA)
+
+regular = paper.claim(
+    "24.regular",
+    "the same without the quotient that has no value at the horizon",
     left=NormalsGGX(u, alpha),
-    printed=Piecewise((alpha**2 / (pi * u**4 * (alpha**2 + 1 / u**2 - 1) ** 2), u > 0), (0, True)),
-    reading=AREA,
+    corrected=PRINTED,
+    where=[interval(u, 0, 1, open="left"), ROUGH],
+    reading=AREA + "; the project writes D = alpha^2 / (pi (1 - (1 - alpha^2) u^2)^2) for u > 0",
 )
+
+
+@regular.proof
+def clear_the_quotient(step):
+    below_the_axis(step.unfold().settle(), u)
+
 
 area = paper.claim(
     "24.norm",
