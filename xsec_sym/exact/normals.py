@@ -1,12 +1,12 @@
-"""Normals of height fields, with the zero below the horizon that their formulas are printed with."""
+"""Distributions of normals as the sources print them: their normalisation, and the zero below the horizon."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from sympy import Expr, Piecewise
+from sympy import Expr, Piecewise, pi
 
-from xsec_sym.exact.distributions import beckmann, ggx
+from xsec_sym.exact.distributions import beckmann, ellipsoidal, ggx
 from xsec_sym.exact.ring import OnTheRing
 from xsec_sym.proof.wire import register
 
@@ -36,3 +36,13 @@ class NormalsGGX(_HeightField):
     """The GGX distribution, per steradian, with unit projected area."""
 
     symbol, ndf = "D_{GGX}", staticmethod(ggx)
+
+
+@register
+class NormalsKagiwadaKalaba(OnTheRing):
+    """Kagiwada and Kalaba's distribution, per unit cosine."""
+
+    symbol = "D_{KK}"
+
+    def definition(self) -> Expr:
+        return 2 * pi * ellipsoidal(*self.args)

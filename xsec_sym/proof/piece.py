@@ -232,7 +232,10 @@ class Piece:
             return None
         if numerator.is_zero:
             return "0"
-        return times(self.sign_of_factors(numerator), self.sign_of_factors(denominator))
+        found = times(self.sign_of_factors(numerator), self.sign_of_factors(denominator))
+        if found is None and expression.is_Pow and expression.exp.is_Integer and expression.exp.is_even:
+            return ">="  # whatever has a normal form is real, and its even powers are not negative
+        return found
 
     def _sign_of_branches(self, e: Piecewise) -> Sign:
         """The sign that all branches share, each judged where its condition holds."""
