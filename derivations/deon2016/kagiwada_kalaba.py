@@ -295,7 +295,7 @@ def seen_along_the_axis(step):
         step.vacuous()
         return
     inner = next(i for i in step.left.atoms(Integral) if i.limits[0][0] == xi_2)
-    step.antiderivative(inner.function * xi_2, inner)
+    step.antiderivative(inner.function.subs(Abs(t), t) * xi_2, inner)
 
 
 if __name__ == "__main__":
