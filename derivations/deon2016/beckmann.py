@@ -180,5 +180,47 @@ def by_the_ring_lemma(step):
     superpose(step, SigmaBeckmann(u_i, alpha), u_i, beckmann(x, alpha), second, mean, beyond, low=0)
 
 
+for pole, value in ((1, 1), (-1, 0)):
+    at_pole = paper.claim(
+        f"22.pole.{'above' if pole > 0 else 'below'}",
+        f"the limit of (22) at u = {pole} is the cross-section there",
+        left=SigmaBeckmann(pole, alpha),
+        corrected=value,
+        where=[ROUGH],
+        reading=AREA,
+        reduces=CLOSED,
+    )
+
+    @at_pole.proof
+    def one_cosine_for_a_ring(step):
+        """Seen from a pole a ring has one cosine: the projected area is what is left, or nothing."""
+        inner = next(i for i in step.unfold().left.atoms(Integral) if i.limits[0][0] == AZIMUTH)
+        for ring in step.split(integral=inner).left.atoms(Integral):
+            if ring.limits[0][0] == AZIMUTH:
+                step.antiderivative(x * AZIMUTH, ring).antiderivative(exp(-(1 / x**2 - 1) / alpha**2))
+
+
+# --- the text -------------------------------------------------------------------------------------------
+
+mu = u_i / s  # the steepest slope that a ray at u can graze
+
+smith = paper.claim(
+    "claim.beckmann-lambda",
+    "the cross-section is related to Smith's Lambda by a cosine: from below it is u Lambda(u)",
+    left=SigmaBeckmann(-u_i, alpha),
+    printed=u_i * (Integral((q - mu) * exp(-(q**2) / alpha**2) / (alpha * sqrt(pi)), (q, mu, oo)) / mu),
+    where=[interval(u_i, 0, 1, open=True), ROUGH],
+    reading=AREA + "; Lambda is Smith's integral over the slopes along the ray, with mu = cot(theta)",
+    statement=True,
+    reduces=CLOSED,
+)
+
+
+@smith.proof
+def slopes_beyond_the_ray(step):
+    step.lemma(closed, {u_i: -u_i}).swap()
+    step.antiderivative(-alpha / (2 * sqrt(pi)) * exp(-(q**2) / alpha**2) - mu / 2 * erf(q / alpha))
+
+
 if __name__ == "__main__":
     paper.tell()

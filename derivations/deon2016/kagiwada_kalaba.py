@@ -298,5 +298,37 @@ def seen_along_the_axis(step):
     step.antiderivative(inner.function.subs(Abs(t), t) * xi_2, inner)
 
 
+paper.whole(
+    "27",
+    "the cross-section of the ellipsoidal distribution",
+    ["27.1", "27.2"],
+    left=2 * pi * SigmaEllipsoidal(u_i, b),
+    printed=closed.printed,
+    reading=PER_COSINE,
+)
+
+
+# --- the conclusion -------------------------------------------------------------------------------------
+
+paper.whole(
+    "claim.blending.ellipsoidal",
+    "the ellipsoidal distribution blends continuously between a flat mirror and an isotropic medium",
+    ["claim.kk-isotropic", "claim.kk-isotropic.sigma", "claim.flat-limit.kagiwada-kalaba", "claim.kk-flat"],
+    left=SigmaEllipsoidal(u_i, b),
+    reading="in between, (27) is continuous in b",
+)
+
+paper.out_of_scope(
+    "claim.new-behaviours",
+    "such distributions define new surface-like and semi-porous reflectance",
+    because="a statement about appearance",
+)
+
+paper.out_of_scope(
+    "claim.simple-forms",
+    "among the new distributions only the ellipsoidal one has a simple closed form",
+    because="it tells what its author found; whether a form is simple is no equation",
+)
+
 if __name__ == "__main__":
     paper.tell()
