@@ -212,7 +212,7 @@ smith = paper.claim(
     where=[interval(u_i, 0, 1, open=True), ROUGH],
     reading=AREA + "; Lambda is Smith's integral over the slopes along the ray, with mu = cot(theta)",
     statement=True,
-    reduces=CLOSED,
+    reduces=["deon2016:22"],
 )
 
 

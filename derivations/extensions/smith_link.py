@@ -64,7 +64,7 @@ def link(name, sigma, closed, form, high):
             corrected=u * factor,
             where=[interval(u, 0, 1, open=high), ROUGH],
             reading=AREA,
-            reduces=CLOSED,
+            reduces=[closed],
         )
         claim.proof(lambda step, viewer=viewer: step.fact(*SPHEROID).lemma(closed, {u_i: viewer}))
 
