@@ -122,11 +122,11 @@ def superpose(step, sigma, viewer, density, s2, mean, beyond, low=-1, ready=None
     constant, shape = density.as_independent(x, as_Add=False)
     for branch in step.cases(viewer):
         if not branch.goal.piece.facts_about(viewer):
-            branch.unfold(sigma.subs(viewer, 0)).lemma("xsec:ring-lemma.zero").lemma(s2, {viewer: 0})
+            branch.unfold(sigma.func.__name__).lemma("xsec:ring-lemma.zero").lemma(s2, {viewer: 0})
             continue
         positive = branch.goal.piece.sign(viewer) == "+"
         distance = viewer if positive else -viewer
-        branch.unfold(sigma).lemma("xsec:ring-lemma", {x: x, u: viewer}).settle()
+        branch.unfold(sigma.func.__name__).lemma("xsec:ring-lemma", {x: x, u: viewer}).settle()
         inner = Integral(RingSpread(x, t) * kernel, (t, distance, 1))
         clamped = [pi * (viewer * x + distance * Abs(x)) * density] if positive or low < 0 else []
         branch.linear(*clamped, distance * density * inner)

@@ -43,7 +43,10 @@ class Outcome:
 def reduced(e: Expr, lemmas: Iterable[Claim]) -> Expr:
     """Defined objects written by the equations that were proved for them, so that one integration is left."""
     lemmas = list(lemmas)
-    e = _opened(e, tuple(lemma.left.func for lemma in lemmas))
+    heads = tuple(lemma.left.func for lemma in lemmas)
+    for node in [n for n in preorder_traversal(e) if hasattr(n, "definition") and not isinstance(n, heads)]:
+        if node.definition().has(*heads):
+            e = e.xreplace({node: node.definition()})
     for lemma in lemmas:
         head, names = lemma.left.func, lemma.left.args
         if head is Integral:
@@ -72,15 +75,6 @@ def _inner_value(integral: Integral, lemma: Claim) -> Expr | None:
         return None
     form = lemma.form.subs({s: found[w] for s, w in unknown.items()}, simultaneous=True)
     return Integral(outside * form, *outer)
-
-
-def _opened(e: Expr, heads: tuple[Any, ...]) -> Expr:
-    """Definitions that hold an object of one of these heads are written out."""
-    for node in [n for n in preorder_traversal(e) if hasattr(n, "definition") and not isinstance(n, heads)]:
-        whole = node.definition()
-        if any(isinstance(n, heads) for n in preorder_traversal(whole)):
-            e = e.xreplace({node: whole})
-    return e
 
 
 def distributed(e: Expr) -> Expr:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from sympy import Integral, Sum, Symbol, cos, oo, pi, sin
 
-from xsec_sym.proof.calculus import outer_names, parts_of
+from xsec_sym.proof.calculus import iterated, outer_names
 from xsec_sym.proof.rules import Goal, demand
 
 
@@ -13,15 +13,9 @@ def polar(goal: Goal, integral: Integral, radius: Symbol, azimuth: Symbol) -> li
 
     The integrand keeps one sign (Tonelli), so that neither the order nor the shape of growing domains matters.
     """
-    f, q, low, high, _, inner = parts_of(goal, integral)
-    outside, rest = f.as_independent(Integral, as_Add=False)
-    demand(
-        isinstance(rest, Integral) and len(rest.limits) == 1 and len(rest.limits[0]) == 3,
-        lambda: f"{f} is not a factor times one inner integral",
-    )
+    outside, rest, q, low, high, _, inner = iterated(goal, integral)
     p, a, b = rest.limits[0]
     demand((low, high, a, b) == (-oo, oo, -oo, oo), "the integral is not over the whole plane")
-    demand(not outside.has(p), lambda: f"{p} is used twice in {integral}")
     integrand = outside * rest.function
     demand(not integrand.has(Integral, Sum), "an integral or a sum is left in the integrand")
     used = integral.atoms(Symbol) | outer_names(goal, integral) | goal.right.free_symbols

@@ -25,10 +25,12 @@ from sympy import (
     Pow,
     Sum,
     Symbol,
+    Tuple,
     acos,
     asin,
     atan,
     atanh,
+    besseli,
     binomial,
     cos,
     cosh,
@@ -39,6 +41,7 @@ from sympy import (
     exp,
     factorial,
     gamma,
+    hyper,
     log,
     oo,
     preorder_traversal,
@@ -170,12 +173,9 @@ def fact(
 # --- equations ----------------------------------------------------------------------------------------
 
 
-def unfold(goal: Goal, part: Expr | None = None) -> list[Goal]:
-    """Replace every defined object by its definition, on both sides; or only one, on the left, and only once."""
-    if part is not None:
-        demand(occurs(part, goal.left) and hasattr(part, "definition"), lambda: f"{part} is no defined object here")
-        return [goal.with_left(goal.left.xreplace({part: opened(part)}))]
-    return [replace(goal, left=unfolded(goal.left), right=unfolded(goal.right))]
+def unfold(goal: Goal, only: str = "") -> list[Goal]:
+    """Replace every defined object, or those of one name, by its definition, on both sides."""
+    return [replace(goal, left=unfolded(goal.left, only), right=unfolded(goal.right, only))]
 
 
 def occurs(part: Expr, whole: Expr) -> bool:
@@ -201,9 +201,9 @@ def nest(goal: Goal, integral: Integral) -> list[Goal]:
     return [goal.with_left(goal.left.xreplace({integral: Integral(outside * Integral(inside, *inner), last)}))]
 
 
-def unfolded(e: Expr) -> Expr:
+def unfolded(e: Expr, only: str = "") -> Expr:
     while True:
-        found = {node: node.definition() for node in set(_nodes(e))}
+        found = {node: opened(node) for node in set(_nodes(e)) if only in ("", node.func.__name__)}
         if not found:
             return e
         e = e.xreplace(found)
@@ -212,8 +212,8 @@ def unfolded(e: Expr) -> Expr:
 def opened(e: Expr) -> Expr:
     """A defined object written out once, provided that its definition binds no name of its arguments."""
     whole = e.definition()
-    binders = {limit[0] for node in preorder_traversal(whole) if isinstance(node, Integral | Sum) for limit in node.limits}
-    demand(not binders & e.free_symbols, lambda: f"{binders & e.free_symbols} would be captured by {e}")
+    bound = {s for node in whole.atoms(Integral, Sum) for s in node.bound_symbols} & e.free_symbols
+    demand(not bound, lambda: f"{bound} would be captured by {e}")
     return whole
 
 
@@ -244,8 +244,8 @@ def close(goal: Goal) -> list[Goal]:
     return []
 
 
-def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr]) -> list[Goal]:
-    """Replace the left side of an equation that holds by its right side, inside the lemma's own domain."""
+def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr], back: bool = False) -> list[Goal]:
+    """Replace the left side of an equation that holds by its right side, inside the lemma's own domain; or ``back``."""
     index = {v.symbol: v.member(v.index) for v in proven.domain.variables if isinstance(v, Integers)}
     mapping = {**{v: k for v, k in index.items() if v not in mapping}, **mapping}
     for v in proven.domain.variables:
@@ -264,9 +264,11 @@ def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr]) -> list[Goal]
     demand(not bound & taken, lambda: f"{bound & taken} would be captured by {proven.id}")
     old = proven.left.subs(mapping, simultaneous=True)
     new = proven.form.subs(mapping, simultaneous=True)
-    if not occurs(old, goal.left) and hasattr(old, "definition"):
+    if back:
+        old, new = new, old
+    elif not occurs(old, goal.left) and hasattr(old, "definition"):
         old = opened(old)
-    demand(occurs(old, goal.left), lambda: f"the left side of {proven.id}, {old}, does not occur")
+    demand(occurs(old, goal.left), lambda: f"the side of {proven.id} that is to be replaced, {old}, does not occur")
     for piece in contexts(goal, old):
         for variable in proven.domain.variables:
             if isinstance(variable, Choices):
@@ -391,6 +393,14 @@ def _critical(e: Expr, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], 
         elif isinstance(node, gamma | factorial | binomial):
             free = [a for a in node.args if not a.is_integer]
             demand(not free, lambda: f"{node} is not known to be smooth")
+        elif isinstance(node, besseli):
+            demand(bool(node.args[0].is_integer), lambda: f"{said(node)} is not of integer order")
+        elif isinstance(node, hyper):
+            above, below, _ = node.args
+            natural = len(above) == 0 and all(b.is_integer and b.is_positive for b in below)
+            demand(natural, lambda: f"{said(node)} is not known to be smooth")
+        elif isinstance(node, Tuple):
+            continue
         elif not isinstance(node, ENTIRE):
             # a list of what is smooth, since a list of what is not would always miss one
             raise Refused(f"{said(node)} is not known to be smooth")
