@@ -4,12 +4,11 @@ The cross-section is derived twice: from the distribution of slopes, as in the p
 the ring lemma.
 """
 
-from sympy import Heaviside, Integral, Max, Piecewise, erf, exp, pi, sqrt, symbols
+from sympy import Heaviside, Integral, Max, Piecewise, erf, exp, oo, pi, sqrt, symbols
 
 from derivations.deon2016.cells import CLOSED, superpose, u, x
 from xsec_sym.exact import AZIMUTH, NormalsBeckmann, RingSpread, SigmaBeckmann, beckmann
 from xsec_sym.proof import Source, interval
-from sympy import oo
 
 paper = Source("deon2016", section="2.2")
 
@@ -78,7 +77,6 @@ def rings_of_slopes(step):
     step.polar(r, AZIMUTH)
 
 
-
 paper.definition("21", "the change of variables from cosine to slopes", left=u, printed=cosine,
                  reading="the normal is (-p, -q, 1) over its length, and u is its cosine")  # fmt: skip
 
@@ -125,7 +123,9 @@ def one_slope_after_the_other(step):
     gauss = exp(-(p**2) / alpha**2)
     step.fact(u_i - p * s, s * (u_i / s - p), inside=(p, -oo, u_i / s))
     step.exchange()
-    step.antiderivative(alpha * sqrt(pi) / 2 * gauss * erf(q / alpha), next(i for i in step.left.atoms(Integral) if i.limits[0][0] == q))
+    step.antiderivative(
+        alpha * sqrt(pi) / 2 * gauss * erf(q / alpha), next(i for i in step.left.atoms(Integral) if i.limits[0][0] == q)
+    )
     step.antiderivative(pi * alpha**2 * (u_i * erf(p / alpha) / 2 + alpha * s * gauss / (2 * sqrt(pi))))
 
 

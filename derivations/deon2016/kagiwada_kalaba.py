@@ -4,7 +4,7 @@ The cross-section follows twice: from the second component by the ring lemma, an
 disk of parallel rays. A form that is regular at both poles comes first; the printed one is 0 / 0 at u = 1.
 """
 
-from sympy import Abs, Integral, Max, asin, atan, cos, log, pi, sin, sqrt, symbols
+from sympy import Abs, Integral, Max, asin, cos, log, pi, sqrt, symbols
 
 from derivations.deon2016.cells import CLOSED, superpose, t, u, x
 from derivations.extensions.circle import A, B, circle
@@ -62,8 +62,8 @@ isotropic = paper.claim(
     left=1 / (2 * NormalsKagiwadaKalaba(u, b)),
     corrected=(1 - b * u) * Integral(1 / (1 - b**2 * t**2), (t, 0, 1)),
     where=[interval(u, -1, 1), SHAPE],
-    reading="per unit cosine; the right side is continuous at b = 0, where it is 1: log((1 + b) / (1 - b)) is 2 b times "
-    "the integral, which lies between 1 and 1 / (1 - b^2)",
+    reading="per unit cosine; the right side is continuous at b = 0, where it is 1: the integral lies between 1 and "
+    "1 / (1 - b^2)",
     statement=True,
 )
 
@@ -154,7 +154,8 @@ closed = paper.claim(
     "27.2",
     "the cross-section in closed form",
     left=2 * pi * SigmaEllipsoidal(u_i, b),
-    printed=2 * pi
+    printed=2
+    * pi
     * (
         (sqrt(b**2 * (u_i**2 - 1)) + 1)
         + u_i * log(sqrt(b**2 * (u_i**2 - 1)) + 1 - u_i)
@@ -162,7 +163,8 @@ closed = paper.claim(
         - u_i * log((-b - 1) * (u_i - 1) - 1)
     )
     / (b * log(2 / (b**2 - 1))),
-    corrected=2 * pi
+    corrected=2
+    * pi
     * (R + u_i * log(R - u_i) + b * u_i - u_i * log((-b - 1) * (u_i - 1)) - 1)
     / (b * log(2 / (b + 1) - 1)),
     edit="draw both roots over the + 1, take the - 1 out of the last logarithm, and read log(2 / (b + 1) - 1) below",
@@ -249,9 +251,7 @@ disk = paper.claim(
     left=2 * pi * SigmaEllipsoidal(u_i, b),
     printed=pi * Integral(NormalsKagiwadaKalaba(cos(2 * pi * xi_2) * printed_root, b), *DISK),
     corrected=pi
-    * Integral(
-        NormalsKagiwadaKalaba(cos(2 * pi * xi_2) * sqrt(xi_1 - xi_1 * u_i**2) + sqrt(1 - xi_1) * u_i, b), *DISK
-    ),
+    * Integral(NormalsKagiwadaKalaba(cos(2 * pi * xi_2) * sqrt(xi_1 - xi_1 * u_i**2) + sqrt(1 - xi_1) * u_i, b), *DISK),
     edit="end the root after xi_1 u^2: sqrt(1 - xi_1) u is added to the cosine term",
     where=[SPHERE, SHAPE],
     reading=PER_COSINE,

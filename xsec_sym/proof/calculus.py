@@ -210,6 +210,7 @@ def substitute(goal: Goal, integral: Integral, new: Symbol, g: Expr, low: Expr, 
     smooth(g, new, inner)
     for near, far, side in ((low, a, "low" if rising else "high"), (high, b, "high" if rising else "low")):
         if {near, far} & {oo, -oo}:
+            demand(outer.order(low, high) in ("+", "-"), "the new limits are not shown to be in order")
             demand(tends_to(g, new, near, side, far, outer), lambda: f"{g} is not shown to tend to {far}")
         else:
             demand(outer.is_zero(g.subs(new, near) - far), "the limits do not match")
@@ -238,11 +239,12 @@ def difference(f: Expr, primitive: Expr, x: Symbol, low: Expr, high: Expr, outer
     smooth(primitive, x, inner)
     demand(inner.is_zero(diff(primitive, x) - f), lambda: f"the derivative of {primitive} is not {f}")
     values = {"low": S.Zero, "high": S.Zero}
-    for name, end in (("low", low), ("high", high)):
+    sides = {"+": ("low", "high"), "-": ("high", "low")}.get(outer.order(low, high) or "", ("", ""))
+    for name, end, side in zip(values, (low, high), sides, strict=True):
         if name == flat:
             vanishes_at(primitive, x, end, inner, outer)
         else:
-            values[name] = end_value(primitive, x, end, name, outer)
+            values[name] = end_value(primitive, x, end, side, outer)
     return values["high"] - values["low"]
 
 

@@ -42,7 +42,7 @@ class Trend:
     """(factor + o(1)) d^order as d goes to 0; without an order, less than every power of d."""
 
     factor: Expr
-    order: Rational | None = Integer(0)
+    order: Rational | None = S.Zero
 
     @property
     def vanishes(self) -> bool:
@@ -53,7 +53,11 @@ FLAT = Trend(S.Zero, None)
 
 
 def end_value(e: Expr, x: Symbol, end: Expr, side: str, outer: Piece) -> Expr:
-    """The value of e at an end of a range, or the one that it tends to; ``side`` names the end, low or high."""
+    """The value of e at an end of a range, or the one that it tends to.
+
+    ``side`` names the end, low or high; without one, which is so where the ends' order is not known, e must be
+    continuous there.
+    """
     if end not in (oo, -oo):
         with suppress(Refused):
             continuous_at(e, x, end, outer)
@@ -73,6 +77,7 @@ def tends_to(e: Expr, x: Symbol, end: Expr, side: str, value: Expr, outer: Piece
 
 
 def trend(e: Expr, x: Symbol, end: Expr, side: str, outer: Piece) -> Trend:
+    demand(side in ("low", "high"), lambda: f"from which side {end} is approached is not known")
     demand((end == oo) <= (side == "high") and (end == -oo) <= (side == "low"), "a range does not end there")
     d = Dummy("d", positive=True)
     infinite = {oo: 1 / d, -oo: -1 / d}
@@ -116,11 +121,11 @@ def _quotient(e: Expr, d: Symbol, outer: Piece) -> Trend | None:
 
 def _sum(e: Expr, d: Symbol, outer: Piece) -> Trend:
     """The lowest order counts. Where its factors cancel, 0 is left: still true, only weaker."""
-    parts = [p for p in (_trend(a, d, outer) for a in e.args) if p.order is not None]
+    parts = [(p.order, p.factor) for p in (_trend(a, d, outer) for a in e.args) if p.order is not None]
     if not parts:
         return FLAT
-    least = min(p.order for p in parts)
-    return Trend(Add(*(p.factor for p in parts if p.order == least)), least)
+    least = min(order for order, _ in parts)
+    return Trend(Add(*(factor for order, factor in parts if order == least)), least)
 
 
 def _power(base: Trend, e: Expr, outer: Piece) -> Trend:
@@ -129,7 +134,9 @@ def _power(base: Trend, e: Expr, outer: Piece) -> Trend:
         return FLAT if base.order is None else Trend(base.factor**k, base.order * k)
     demand(base.order is not None, lambda: f"{said(e.base)} may vanish too fast")
     here = outer.sign(base.factor)
-    demand(here == "+" or (here == "-" and k.is_Integer), lambda: f"the sign of {said(e.base)} near the end is not known")
+    demand(
+        here == "+" or (here == "-" and k.is_Integer), lambda: f"the sign of {said(e.base)} near the end is not known"
+    )
     return Trend(base.factor**k, base.order * k)
 
 
