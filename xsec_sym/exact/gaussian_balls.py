@@ -1,0 +1,111 @@
+"""Fast enclosures of the spherical Gaussian's cross-section, for searches that want thousands of values.
+
+With kappa = 2 / alpha^2, u = sin(psi) and s = cos(psi) (`xsec:sg-integral`),
+
+    sigma = 1 / (2 sinh kappa) { s I1(kappa s) + u [cosh kappa - sinh kappa / kappa + F(u)] },
+    F(u) = int_0^u kappa I0(kappa w) - I1(kappa w) / w dt,  w = sqrt(1 - t^2),
+         = 2 sum_j (z (I_j^2 + I_{j+1}^2) - I_j I_{j+1}) sin((2j + 1) psi) / (2j + 1),  I_j = I_j(z),  z = kappa / 2.
+
+All is scaled by exp(-kappa). The series is for moderate kappa; it has some 6 sqrt(kappa) terms. The integral is for
+the rest. Neither decides any claim by itself: the engine compares them with the definition at points of its own.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from flint import acb, arb, ctx
+
+RESTS_ON = ("xsec:sg-integral",)
+SERIES = 3_000  # up to this kappa the series is the faster one
+
+
+@lru_cache(maxsize=256)
+def _coefficients(middle: arb, radius: arb, bits: int) -> tuple[tuple[arb, ...], arb]:
+    """The series' coefficients, scaled by exp(-2z), and a bound on the sum of all that are left out.
+
+    I_{j+1} / I_j falls with j (Turan's inequality), so the tail is less than a geometric series.
+    """
+    z = arb(middle, radius)
+    found, j = [], 0
+    this, after = z.bessel_i(0, scaled=True), z.bessel_i(1, scaled=True)
+    while True:
+        found.append((z * (this * this + after * after) - this * after) / (2 * j + 1))
+        j += 1
+        this, after = after, z.bessel_i(j + 1, scaled=True)
+        ratio = (after / this).upper()
+        if ratio < 1 and not (found[-1] > arb(2) ** (8 - bits)):
+            rest = (2 * z + 1) * this * this / ((2 * j + 1) * (1 - ratio * ratio))
+            return tuple(found), arb(0).union(rest.upper()).union(-rest.upper())
+        if j > 100_000:
+            raise ArithmeticError("the series of the spherical Gaussian is too long")
+
+
+def _primitive(u: arb, kappa: arb) -> arb:
+    """exp(-kappa) F(u)."""
+    if kappa < SERIES:
+        z = kappa / 2
+        coefficients, rest = _coefficients(z.mid(), z.rad(), ctx.prec)
+        psi, total = u.asin(), rest
+        for j, c in enumerate(coefficients):
+            total += c * ((2 * j + 1) * psi).sin()
+        return 2 * total
+
+    def integrand(t: acb, analytic: bool) -> acb:
+        w = (1 - t * t).sqrt(analytic=analytic)
+        if not w.real > 0.5:  # where Re w > 0 the scaled functions are I exp(-kappa w); elsewhere not holomorphic
+            return acb(arb("nan"), arb("nan"))
+        slow = kappa * _scaled_bessel(0, kappa * w) - _scaled_bessel(1, kappa * w) / w
+        return slow * (-kappa * t * t / (1 + w)).exp()
+
+    # beyond t = 1/2 the integrand, scaled, is below kappa exp(-kappa / 8)
+    end = arb.min(abs(u), arb(0.5))
+    beyond = (kappa * (-kappa / 8).exp()).upper()
+    found = acb.integral(integrand, 0, end, rel_tol=arb(2) ** -50, abs_tol=arb(2) ** -60).real
+    return (found + arb(0).union(beyond)) * u.sgn()
+
+
+def _scaled_bessel(n: int, z: acb) -> acb:
+    """I_n(z) exp(-z) for Re z > 0, which is the mean of exp(z (cos t - 1)) cos(nt), and so at most 1 in modulus."""
+    if z.real.rad() > 2 or z.imag.rad() > 2:  # Arb takes seconds over some wide balls
+        return acb(arb(0, 1), arb(0, 1))
+    return z.bessel_i(n, scaled=True)
+
+
+def sigma(u: arb, alpha: arb) -> arb:
+    """The cross-section at a point given by narrow balls, -1 <= u <= 1.
+
+    >>> from flint import arb
+    >>> sigma(arb(1), arb("0.1"))
+    [0.99500000000000 +/- 4.5e-16]
+    """
+    kappa = 2 / (alpha * alpha)
+    return _scaled(u, kappa) / (1 - (-2 * kappa).exp())
+
+
+def _scaled(u: arb, kappa: arb) -> arb:
+    s = (1 - u * u).sqrt() if not abs(u) >= 1 else arb(0)
+    small = (-2 * kappa).exp()
+    even = s * (kappa * s).bessel_i(1, scaled=True) * (kappa * (s - 1)).exp()
+    return even + u * ((1 + small) / 2 - (1 - small) / (2 * kappa) + _primitive(u, kappa))
+
+
+def majorant(u: acb, alpha: acb) -> arb:
+    """A number that |sigma| nowhere exceeds on a box of complex u and alpha.
+
+    About the viewer, sigma = kappa / (4 pi sinh kappa) times the integral over the hemisphere of cosine times
+    exp(kappa (u cos t + s sin t cos phi)). The real part of the exponent is the product of a unit vector with one of
+    length N, N^2 = Re(kappa u)^2 + Re(kappa s)^2 = Re(kappa)^2 + |kappa|^2 y, y = sinh^2(Im psi) = (|u|^2 + |s|^2 -
+    1) / 2. The cosine is at most 1, so |sigma| <= |kappa / sinh kappa| sinh(N) / N, which grows with N.
+    """
+    kappa = 2 / (alpha * alpha)
+    y = ((abs(u * u) + abs(1 - u * u) - 1) / 2).upper()
+    y = y if y > 0 else arb(0)
+    size, real = arb(abs(kappa).upper()), arb(kappa.real.abs_upper())
+    low = arb(kappa.real.lower())
+    if low > 8:
+        # |sinh kappa| >= sinh(Re kappa), and sqrt(a^2 + b) <= a + b / (2 a)
+        return size / low * (size * size * y / (2 * low)).exp() / (1 - (-2 * low).exp())
+    n = (real * real + size * size * y).sqrt()
+    growth = n.sinh() / n if n > 0 else arb(1)
+    return abs(1 / (kappa * acb(0, 1)).sinc()).upper() * growth
