@@ -16,6 +16,8 @@ from functools import lru_cache
 
 from flint import acb, arb, ctx
 
+from xsec_sym.proof.scaled import scaled_bessel
+
 RESTS_ON = ("xsec:sg-integral",)
 SERIES = 3_000  # up to this kappa the series is the faster one
 
@@ -27,18 +29,18 @@ def _coefficients(middle: arb, radius: arb, bits: int) -> tuple[tuple[arb, ...],
     I_{j+1} / I_j falls with j (Turan's inequality), so the tail is less than a geometric series.
     """
     z = arb(middle, radius)
-    found, j = [], 0
-    this, after = z.bessel_i(0, scaled=True), z.bessel_i(1, scaled=True)
-    while True:
+    last = int(float((z * bits).sqrt().mid())) + bits // 3
+    after, this = (z.bessel_i(last + k, scaled=True) for k in (1, 0))
+    ratio = (after / this).upper()
+    if not ratio < 1:
+        raise ArithmeticError("the series of the spherical Gaussian does not end")
+    rest = ((2 * z + 1) * this * this / ((2 * last + 1) * (1 - ratio * ratio))).upper()
+    found = []
+    for j in range(last - 1, -1, -1):
+        # downwards all terms are positive, and nothing cancels
+        after, this = this, after + 2 * (j + 1) / z * this
         found.append((z * (this * this + after * after) - this * after) / (2 * j + 1))
-        j += 1
-        this, after = after, z.bessel_i(j + 1, scaled=True)
-        ratio = (after / this).upper()
-        if ratio < 1 and not (found[-1] > arb(2) ** (8 - bits)):
-            rest = (2 * z + 1) * this * this / ((2 * j + 1) * (1 - ratio * ratio))
-            return tuple(found), arb(0).union(rest.upper()).union(-rest.upper())
-        if j > 100_000:
-            raise ArithmeticError("the series of the spherical Gaussian is too long")
+    return tuple(reversed(found)), arb(0).union(rest).union(-rest)
 
 
 def _primitive(u: arb, kappa: arb) -> arb:
@@ -55,7 +57,7 @@ def _primitive(u: arb, kappa: arb) -> arb:
         w = (1 - t * t).sqrt(analytic=analytic)
         if not w.real > 0.5:  # where Re w > 0 the scaled functions are I exp(-kappa w); elsewhere not holomorphic
             return acb(arb("nan"), arb("nan"))
-        slow = kappa * _scaled_bessel(0, kappa * w) - _scaled_bessel(1, kappa * w) / w
+        slow = kappa * scaled_bessel(0, kappa * w) - scaled_bessel(1, kappa * w) / w
         return slow * (-kappa * t * t / (1 + w)).exp()
 
     # beyond t = 1/2 the integrand, scaled, is below kappa exp(-kappa / 8)
@@ -65,18 +67,11 @@ def _primitive(u: arb, kappa: arb) -> arb:
     return (found + arb(0).union(beyond)) * u.sgn()
 
 
-def _scaled_bessel(n: int, z: acb) -> acb:
-    """I_n(z) exp(-z) for Re z > 0, which is the mean of exp(z (cos t - 1)) cos(nt), and so at most 1 in modulus."""
-    if z.real.rad() > 2 or z.imag.rad() > 2:  # Arb takes seconds over some wide balls
-        return acb(arb(0, 1), arb(0, 1))
-    return z.bessel_i(n, scaled=True)
-
-
-def sigma(u: arb, alpha: arb) -> arb:
+def value(u: arb, alpha: arb) -> arb:
     """The cross-section at a point given by narrow balls, -1 <= u <= 1.
 
     >>> from flint import arb
-    >>> sigma(arb(1), arb("0.1"))
+    >>> value(arb(1), arb("0.1"))
     [0.99500000000000 +/- 4.5e-16]
     """
     kappa = 2 / (alpha * alpha)

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from math import ceil, cos, inf, log, pi
 from typing import Any
 
@@ -56,7 +57,9 @@ class Panel:
 
     def at(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """The interpolant on the grid of all pairs."""
-        return np.polynomial.chebyshev.chebgrid2d(_to_unit(x, self.x), _to_unit(y, self.y), self.coefficients)
+        n, k = self.coefficients.shape
+        across = np.polynomial.chebyshev.chebvander(_to_unit(x, self.x), n - 1)
+        return across @ self.coefficients @ np.polynomial.chebyshev.chebvander(_to_unit(y, self.y), k - 1).T
 
     def bound(self, y: tuple[float, float] | None = None, sharp: int = 60) -> float:
         """An upper bound on |f| where the second variable is in ``y``; ``sharp`` points are spent per degree."""
@@ -191,7 +194,7 @@ def _on_ellipse(
 ) -> float:
     """A bound on |f| in the ellipse about one interval while the other variable runs over its own interval."""
     middle, half = _middle(own)
-    across = _strips(other)
+    across = _strips(f, other, first)
     largest = 0.0
     arcs, layers = 12, 2
     top = arb(rho).log()
@@ -206,17 +209,26 @@ def _on_ellipse(
     return largest
 
 
-def _strips(ends: tuple[float, float]) -> list[arb]:
+def _strips(f: Surface, ends: tuple[float, float], first: bool) -> list[acb]:
+    """Boxes that cover an interval; about the removable point, a circle whose maximum bounds all that is inside."""
     if ends[0] == ends[1]:
-        return [arb(ends[0])]
+        return [acb(arb(ends[0]))]
     cuts = [arb(ends[0]) + (arb(ends[1]) - arb(ends[0])) * i / 4 for i in range(5)]
-    return [cuts[i].union(cuts[i + 1]) for i in range(4)]
+    found: list[acb] = []
+    for low, high in pairwise(cuts):
+        if first and f.removable is not None and not (low > f.removable or high < f.removable):
+            radius = 3 * (high - low) / 2
+            angles = [arb.pi() * i / 12 for i in range(13)]
+            found += [f.removable + radius * acb(0, a.union(b)).exp() for a, b in pairwise(angles)]
+        else:
+            found.append(acb(low.union(high)))
+    return found
 
 
-def _in_box(f: Surface, box: tuple[arb, ...], middle: arb, half: arb, strip: arb, first: bool, depth: int) -> float:
+def _in_box(f: Surface, box: tuple[arb, ...], middle: arb, half: arb, strip: acb, first: bool, depth: int) -> float:
     a, b, c, d = box
     z = middle + half * acb(a.union(b), c.union(d)).cos()
-    size = f.majorant(z, acb(strip)) if first else f.majorant(acb(strip), z)
+    size = f.majorant(z, strip) if first else f.majorant(strip, z)
     if size.is_finite():
         return float(size.upper()) * (1 + 1e-15)
     if f.removable is not None and not first and abs(z - f.removable) < half / 16:

@@ -146,6 +146,8 @@ def judged(outcome: Outcome) -> Verdict:
 
 def carries(word: str, certificate: Mapping[str, Any] | None) -> bool:
     """Whether a claim may serve as a lemma: its form is proved, whatever became of the print."""
+    if certificate is not None and "accuracy" in certificate:
+        return False
     return word == "proved" or (word in ("misprint", "claim-holds") and certificate is not None)
 
 
