@@ -20,6 +20,7 @@ from sympy import (
     acos,
     asin,
     atan,
+    besseli,
     cos,
     cosh,
     erf,
@@ -181,6 +182,10 @@ class Atoms:
             return "+" if self.piece.sign(1 - meaning.args[0]) == "+" else ">="
         if isinstance(meaning, log):
             return self.piece.sign(meaning.args[0] - 1)
+        if isinstance(meaning, cos):
+            ends = {self.piece.sign(pi / 2 - meaning.args[0]), self.piece.sign(pi / 2 + meaning.args[0])}
+            if ends <= {"+", ">="}:
+                return "+" if ends == {"+"} else ">="
         if isinstance(meaning, sin):
             angle = meaning.args[0]
             if self.piece.sign(angle) == "+" and self.piece.sign(pi - angle) == "+":
@@ -196,8 +201,21 @@ class Atoms:
             if self.piece.sign(high - low) in ("+", ">=", "0"):
                 inside = self.piece.inside(x, low, high).sign(meaning.function)
                 return ">=" if inside in ("+", ">=", "0") else "<=" if inside in ("-", "<=") else None
+        if isinstance(meaning, besseli):
+            return self._sign_of_bessel(*meaning.args)
         if isinstance(meaning, erf | atan | asin):
             return self.piece.sign(meaning.args[0])
+        return None
+
+    def _sign_of_bessel(self, n: Expr, z: Expr) -> str | None:
+        """I_n(z) is positive for z > 0; for z < 0 it has the sign of (-1)^n."""
+        here = self.piece.sign(z)
+        if here == "+" or n == 0:
+            return "+"
+        if here in (">=", "0"):
+            return ">="
+        if here in ("-", "<=") and n.is_Integer:
+            return ({"-": "+", "<=": ">="} if n % 2 == 0 else {"-": "-", "<=": "<="})[here]
         return None
 
     def _sign_of_symbol(self, symbol: Symbol) -> str | None:
@@ -227,7 +245,7 @@ class Atoms:
                 if rising in ("+", "-"):
                     k = Fraction(1 if rising == "+" else -1)
                     self._bounds[atom] = ({(): -k, ((atom, 1),): k}, True)
-            elif isinstance(meaning, cos):
+            elif isinstance(meaning, cos | sin):
                 self._bounds[atom] = ({(): Fraction(1), ((atom, 1),): Fraction(-1)}, False)
                 self._bounds[(atom, -1)] = ({(): Fraction(1), ((atom, 1),): Fraction(1)}, False)
         return [b for b in self._bounds.values() if b is not None]

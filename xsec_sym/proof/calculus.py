@@ -19,14 +19,19 @@ from sympy import (
     Symbol,
     acos,
     atan,
+    besseli,
     cos,
+    cosh,
     diff,
+    erf,
     exp,
     fraction,
+    hyper,
     log,
     oo,
     preorder_traversal,
     sin,
+    sinh,
     together,
 )
 from sympy.core.function import AppliedUndef
@@ -47,10 +52,10 @@ from xsec_sym.proof.rules import (
 )
 
 BINDERS = (Integral, Sum)
-TAME = (Symbol, Add, Mul, sin, cos, acos, atan, Abs, Heaviside, AppliedUndef)
+TAME = (Symbol, Add, Mul, sin, cos, acos, atan, exp, sinh, cosh, erf, Abs, Heaviside, AppliedUndef)
 
 
-def _parts(goal: Goal, integral: Integral) -> tuple[Expr, Symbol, Expr, Expr, Piece, Piece]:
+def parts(goal: Goal, integral: Integral) -> tuple[Expr, Symbol, Expr, Expr, Piece, Piece]:
     demand(occurs(integral, goal.left), lambda: f"{integral} does not occur")
     demand(len(integral.limits) == 1 and len(integral.limits[0]) == 3, lambda: f"{integral} is not over one interval")
     x, low, high = integral.limits[0]
@@ -62,6 +67,27 @@ def _parts(goal: Goal, integral: Integral) -> tuple[Expr, Symbol, Expr, Expr, Pi
     return integral.function, x, low, high, outer, outer.inside(x, low, high)
 
 
+def iterated(goal: Goal, integral: Integral) -> tuple[Expr, Integral, Symbol, Expr, Expr, Piece, Piece]:
+    """An integral over an integral as factor, inner integral, and what `parts` says of the outer one.
+
+    SymPy writes one integral over another without a factor between them as a single integral over two variables.
+    """
+    if len(integral.limits) == 2:
+        demand(occurs(integral, goal.left), lambda: f"{integral} does not occur")
+        first, (x, low, high) = integral.limits
+        outside, rest = S.One, Integral(integral.function, first)
+        (outer, *_) = contexts(goal, integral)
+        demand(x not in outer_names(goal, integral) | {first[0]}, lambda: f"{x} is bound or used twice in {integral}")
+        inner = outer.inside(x, low, high)
+    else:
+        f, x, low, high, outer, inner = parts(goal, integral)
+        outside, rest = f.as_independent(Integral, as_Add=False)
+    demand(isinstance(rest, Integral) and len(rest.limits) == 1, lambda: f"{integral} is not a double integral")
+    y = rest.limits[0][0]
+    demand(not outside.has(y) and not low.has(y) and not high.has(y), lambda: f"{y} is used twice in {integral}")
+    return outside, rest, x, low, high, outer, inner
+
+
 def outer_names(goal: Goal, integral: Integral) -> set[Symbol]:
     """What is free where an integral stands, its limits included."""
     found = goal.left.free_symbols | {s for e, _ in goal.piece.facts for s in e.free_symbols}
@@ -70,7 +96,7 @@ def outer_names(goal: Goal, integral: Integral) -> set[Symbol]:
 
 def split(goal: Goal, integral: Integral, points: list[Expr]) -> list[Goal]:
     """One integral as several, cut at ordered points; on each part every switch takes its one branch."""
-    f, x, low, high, outer, _ = _parts(goal, integral)
+    f, x, low, high, outer, _ = parts(goal, integral)
     ends = [low, *points, high]
     total = []
     for a, b in pairwise(ends):
@@ -78,6 +104,16 @@ def split(goal: Goal, integral: Integral, points: list[Expr]) -> list[Goal]:
         body = branch(f, x, a, b, outer)
         total.append(Integral(body, (x, a, b)) if body != 0 else 0)
     return [goal.with_left(goal.left.xreplace({integral: Add(*total)}))]
+
+
+def extend(goal: Goal, integral: Integral, end: Expr) -> list[Goal]:
+    """The integral up to ``end``, less what lies beyond its own upper limit; bounded, so that all of them exist."""
+    f, x, low, high, outer, _ = parts(goal, integral)
+    for a, b in ((low, high), (high, end)):
+        demand(outer.sign(b - a) in ("+", ">=", "0"), lambda: f"{b} is not shown to lie above {a}")
+    demand(bounded(f, x, outer.inside(x, low, end)), lambda: f"{f} is not shown to be bounded")
+    new = Integral(f, (x, low, end)) - Integral(f, (x, high, end))
+    return [goal.with_left(goal.left.xreplace({integral: new}))]
 
 
 def branch(f: Expr, x: Symbol, a: Expr, b: Expr, outer: Piece) -> Expr:
@@ -109,7 +145,7 @@ def linear(goal: Goal, integral: Integral, terms: list[Expr]) -> list[Goal]:
 
     Where more than one term is not plainly integrable, each of those must be given a value before the goal is closed.
     """
-    f, x, low, high, _, inner = _parts(goal, integral)
+    f, x, low, high, _, inner = parts(goal, integral)
     demand(inner.is_zero(f - Add(*terms)), lambda: f"the terms do not add up to {f}")
     drawn, doubtful = [], 0
     for term in terms:
@@ -129,6 +165,10 @@ def bounded(e: Expr, x: Symbol, inner: Piece) -> bool:
             continue
         if isinstance(node, Pow) and node.exp.is_nonnegative:
             continue
+        if isinstance(node, besseli) and node.args[0].is_integer:
+            continue
+        if isinstance(node, hyper) and len(node.args[0]) == 0:
+            continue
         if isinstance(node, Pow) and node.exp.is_integer and inner.sign(node.base - 1) in ("+", ">="):
             continue
         return False
@@ -142,14 +182,9 @@ def exchange(
 
     The sign may rest on a lemma: its left side is then read as its right side.
     """
-    f, x, low, high, outer, inner = _parts(goal, integral)
-    outside, rest = f.as_independent(Integral, as_Add=False)
-    demand(
-        isinstance(rest, Integral) and len(rest.limits) == 1, lambda: f"{f} is not a factor times one inner integral"
-    )
+    outside, rest, x, low, high, outer, inner = iterated(goal, integral)
     y, a, b = rest.limits[0]
-    demand(not (a.has(x) or b.has(x) or low.has(y) or high.has(y)), "the limits depend on the other variable")
-    demand(not outside.has(y), lambda: f"{y} is used twice in {integral}")
+    demand(not (a.has(x) or b.has(x)), "the limits depend on the other variable")
     ordered = outer.sign(high - low), inner.sign(b - a)
     demand(set(ordered) <= {"+", ">=", "0"}, "the limits are not shown to be in order")
     deepest = inner.inside(y, a, b)
@@ -166,7 +201,7 @@ def exchange(
 
 def substitute(goal: Goal, integral: Integral, new: Symbol, g: Expr, low: Expr, high: Expr) -> list[Goal]:
     """x = g(new) with g strictly monotone between low and high, which it maps to the limits."""
-    f, x, a, b, outer, _ = _parts(goal, integral)
+    f, x, a, b, outer, _ = parts(goal, integral)
     used = integral.atoms(Symbol) | outer_names(goal, integral) | goal.right.free_symbols
     demand(new not in used, lambda: f"{new} already stands for something else")
     demand(outer.is_zero(g.subs(new, low) - a) and outer.is_zero(g.subs(new, high) - b), "the limits do not match")
@@ -186,13 +221,13 @@ def antiderivative(goal: Goal, integral: Integral, primitive: Expr, flat: str = 
 
     ``flat`` names an end, low or high, where the primitive is not defined but vanishes faster than any power.
     """
-    f, x, low, high, outer, _ = _parts(goal, integral)
+    f, x, low, high, outer, _ = parts(goal, integral)
     demand(flat in ("", "low", "high"), "an end is low or high")
-    value = _difference(f, primitive, x, low, high, outer, flat)
+    value = difference(f, primitive, x, low, high, outer, flat)
     return [goal.with_left(goal.left.xreplace({integral: value}))]
 
 
-def _difference(f: Expr, primitive: Expr, x: Symbol, low: Expr, high: Expr, outer: Piece, flat: str = "") -> Expr:
+def difference(f: Expr, primitive: Expr, x: Symbol, low: Expr, high: Expr, outer: Piece, flat: str = "") -> Expr:
     inner = outer.inside(x, low, high)
     f = resolved(f, inner)
     smooth(primitive, x, inner)
@@ -238,11 +273,11 @@ def recurrence(
     ``base`` is a primitive of the integrand at index 0. ``following`` f(index + 1) + ``present`` f(index) is the
     derivative of ``primitive``, and ``closed`` satisfies the recurrence that this gives.
     """
-    f, x, low, high, outer, inner = _parts(goal, integral)
+    f, x, low, high, outer, inner = parts(goal, integral)
     demand(index.is_integer and index.is_nonnegative, lambda: f"{index} does not run over 0, 1, 2, ...")
     demand(not (low.has(index) or high.has(index)), "the limits depend on the index")
     demand(not any(e.has(index) for e, _ in outer.facts), "what is known of the index need not hold for the next one")
-    first = _difference(f.subs(index, 0), base, x, low, high, outer)
+    first = difference(f.subs(index, 0), base, x, low, high, outer)
     demand(outer.is_zero(first - closed.subs(index, 0)), lambda: f"the closed form is wrong at {index} = 0")
     demand(outer.sign(following) in ("+", "-"), lambda: f"{following} may vanish")
     smooth(primitive, x, inner)
@@ -273,7 +308,7 @@ def diverges(goal: Goal, integral: Integral, minorant: Expr, strength: Expr, ord
     With d the distance to the end in question, the minorant is strength d^(-1 - order), strength > 0: its primitive
     is unbounded. Every other term is an integral of something not negative, or finite.
     """
-    f, x, low, high, outer, inner = _parts(goal, integral)
+    f, x, low, high, outer, inner = parts(goal, integral)
     demand(goal.right == oo, "the claim is not that the quantity is infinite")
     demand(end in ("low", "high"), "the end is either low or high")
     demand(order >= 0, "an integrable minorant proves nothing")
@@ -294,7 +329,7 @@ def diverges(goal: Goal, integral: Integral, minorant: Expr, strength: Expr, ord
             demand(outer.sign(factor) == "+", lambda: f"{factor} may vanish")
         elif term.has(Integral):
             other = Goal(rest, goal.right, goal.piece)
-            g, y, a, b, around, _ = _parts(other, rest)
+            g, y, a, b, around, _ = parts(other, rest)
             demand(around.sign(b - a) in ("+", ">=", "0"), lambda: f"the limits of {rest} are not in order")
             demand(
                 around.inside(y, a, b).sign(branch(g, y, a, b, around)) in ("+", ">=", "0"),
@@ -305,4 +340,4 @@ def diverges(goal: Goal, integral: Integral, minorant: Expr, strength: Expr, ord
     return []
 
 
-__all__ = ["antiderivative", "diverges", "exchange", "linear", "recurrence", "split", "substitute", "telescope"]
+__all__ = ["antiderivative", "diverges", "exchange", "extend", "linear", "recurrence", "split", "substitute", "telescope"]

@@ -11,7 +11,7 @@ from typing import Any
 
 from sympy import Symbol
 
-from xsec_sym.proof import calculus, rules, wire
+from xsec_sym.proof import calculus, rules, sphere, wire
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.field import Unsettled
 from xsec_sym.proof.rules import Goal, Refused
@@ -31,6 +31,7 @@ MOVES: dict[str, Callable[..., list[Goal]]] = {
         rules.lemma,
         rules.ode,
         calculus.split,
+        calculus.extend,
         calculus.linear,
         calculus.exchange,
         calculus.substitute,
@@ -38,6 +39,14 @@ MOVES: dict[str, Callable[..., list[Goal]]] = {
         calculus.recurrence,
         calculus.telescope,
         calculus.diverges,
+        sphere.turn,
+        sphere.bessel,
+        sphere.wave,
+        sphere.beats,
+        sphere.shear,
+        sphere.harmonics,
+        sphere.taylor,
+        sphere.peel,
     )
 }
 

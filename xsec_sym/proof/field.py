@@ -11,7 +11,7 @@ from __future__ import annotations
 from functools import reduce
 from math import floor
 from operator import mul
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from sympy import (
     Abs,
@@ -34,17 +34,21 @@ from sympy import (
     asin,
     atan,
     atanh,
+    besseli,
     binomial,
     cos,
     cosh,
     coth,
     csch,
+    default_sort_key,
     erf,
     exp,
     factorial,
     factorint,
     gamma,
+    hyper,
     log,
+    oo,
     pi,
     preorder_traversal,
     sign,
@@ -53,12 +57,9 @@ from sympy import (
     tan,
     tanh,
 )
-
-if TYPE_CHECKING:
-    pass
-
 from sympy.core.function import AppliedUndef
 
+from xsec_sym.proof import bessel
 from xsec_sym.proof.atoms import Atoms, Unsettled
 
 _HYPERBOLIC = (sinh, cosh, tanh, coth, csch, tan)
@@ -113,6 +114,10 @@ class Field(Atoms):
             return self._mirrored(e, lambda other: -other)
         if isinstance(e, cos):
             return self._mirrored(e, lambda other: other)
+        if isinstance(e, besseli):
+            return bessel.atomised(self, e)
+        if isinstance(e, hyper):
+            return bessel.confluent(self, e)
         if isinstance(e, Integral):
             return self._integral(e)
         if isinstance(e, Sum):
@@ -283,6 +288,12 @@ class Field(Atoms):
         whole = floor(power)
         part = power - whole
         result = radicand**whole
+        if part == Rational(1, 2):
+            for atom, (_, square) in self.relations.items():
+                # the root of 1 - cos^2 is the sine, where that is not negative
+                if square == radicand and isinstance(self.meaning.get(atom), sin):
+                    if self.sign_of_atom(atom) in ("+", ">=", "0"):
+                        return result * atom
         if part:
             root = self._atom("r", Pow(self._meant(radicand), Rational(1, part.q)), radicand, part.q)
             self.relations.setdefault(root, (part.q, radicand))
@@ -353,6 +364,9 @@ class Field(Atoms):
         x, low, high = e.limits[0]
         if self.piece.is_zero(high - low):
             return S.Zero
+        order = self.piece.sign(high - low)
+        if order in ("-", "<=") or (order is None and default_sort_key(low) > default_sort_key(high)):
+            return -self.atomise(Integral(e.function, (x, high, low)))
         inner = self.piece.inside(x, low, high).field
         top, bottom = inner.fraction(e.function)
         if top.is_zero:
@@ -364,8 +378,11 @@ class Field(Atoms):
         hidden = Symbol(_hidden("x", e), real=True)
         limits = (hidden, self._argument(low), self._argument(high))
         if (len(top.terms()) > 1 and not all(_bounded(inner.meaning.get(a, a)) for a in moving)) or inside != 1:
-            # term by term the integral might not exist: such an integrand stays whole
-            body = inner._meant(top.as_expr() / inside)
+            # term by term the integral might not exist: such an integrand stays whole, but for factors without x
+            drawn, factors = top.factor_list()
+            whole = Mul(*(f.as_expr() ** k for f, k in factors if f.free_symbols & moving))
+            outside /= Mul(drawn, *(f.as_expr() ** k for f, k in factors if not f.free_symbols & moving))
+            body = inner._meant(whole / inside)
             return self.atomise(inner._meant(1 / outside)) * self._atom(
                 "int", Integral(body.xreplace({x: hidden}), limits)
             )
@@ -386,6 +403,8 @@ class Field(Atoms):
         if len(e.limits) != 1:
             raise Unsettled("only a single sum is an atom")
         j, low, high = e.limits[0]
+        if high == oo:
+            return self._series(e.function.subs(j, j + low), j)
         if (high - low).is_Integer:
             return self.atomise(e.doit())
         fixed, moving = _split_exponent(high)
@@ -397,6 +416,24 @@ class Field(Atoms):
         extra = [e.function.xreplace({j: top + i}) for i in (range(1, fixed + 1) if fixed > 0 else range(fixed + 1, 1))]
         tail = Add(*(self.atomise(t) for t in extra))
         return atom + tail if fixed > 0 else atom - tail
+
+    def _series(self, term: Expr, j: Symbol) -> Expr:
+        """An infinite sum from 0 is an atom, but for factors that do not depend on the index."""
+        top, bottom = self.fraction(term)
+        if top.is_zero:
+            return S.Zero
+        moving = {a for a in top.free_symbols | bottom.free_symbols if self.meaning.get(a, a).has(j)}
+        fixed, kept = S.One, S.One
+        for polynomial, side in ((top, 1), (bottom, -1)):
+            constant, factors = polynomial.factor_list()
+            fixed *= Rational(constant) ** side
+            for f, k in factors:
+                if f.free_symbols & moving:
+                    kept *= f.as_expr() ** (side * k)
+                else:
+                    fixed *= f.as_expr() ** (side * k)
+        hidden = Symbol(_hidden("j", Sum(term, (j, 0, oo))), integer=True, nonnegative=True)
+        return fixed * self._atom("sum", Sum(self._meant(kept).xreplace({j: hidden}), (hidden, 0, oo)))
 
 
 def _hidden(letter: str, e: Expr) -> str:

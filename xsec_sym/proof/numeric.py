@@ -42,6 +42,11 @@ class Outcome:
 
 def reduced(e: Expr, lemmas: Iterable[Claim]) -> Expr:
     """Defined objects written by the equations that were proved for them, so that one integration is left."""
+    lemmas = list(lemmas)
+    heads = tuple(lemma.left.func for lemma in lemmas)
+    for node in [n for n in preorder_traversal(e) if hasattr(n, "definition") and not isinstance(n, heads)]:
+        if node.definition().has(*heads):
+            e = e.xreplace({node: node.definition()})
     for lemma in lemmas:
         head, names = lemma.left.func, lemma.left.args
         for node in [n for n in preorder_traversal(e) if isinstance(n, head)]:

@@ -25,10 +25,12 @@ from sympy import (
     Pow,
     Sum,
     Symbol,
+    Tuple,
     acos,
     asin,
     atan,
     atanh,
+    besseli,
     binomial,
     cos,
     cosh,
@@ -39,6 +41,7 @@ from sympy import (
     exp,
     factorial,
     gamma,
+    hyper,
     log,
     oo,
     preorder_traversal,
@@ -170,9 +173,9 @@ def fact(
 # --- equations ----------------------------------------------------------------------------------------
 
 
-def unfold(goal: Goal) -> list[Goal]:
-    """Replace every defined object by its definition, on both sides."""
-    return [replace(goal, left=unfolded(goal.left), right=unfolded(goal.right))]
+def unfold(goal: Goal, only: str = "") -> list[Goal]:
+    """Replace every defined object, or those of one name, by its definition, on both sides."""
+    return [replace(goal, left=unfolded(goal.left, only), right=unfolded(goal.right, only))]
 
 
 def occurs(part: Expr, whole: Expr) -> bool:
@@ -198,9 +201,9 @@ def nest(goal: Goal, integral: Integral) -> list[Goal]:
     return [goal.with_left(goal.left.xreplace({integral: Integral(outside * Integral(inside, *inner), last)}))]
 
 
-def unfolded(e: Expr) -> Expr:
+def unfolded(e: Expr, only: str = "") -> Expr:
     while True:
-        found = {node: node.definition() for node in set(_nodes(e))}
+        found = {node: node.definition() for node in set(_nodes(e)) if only in ("", node.func.__name__)}
         if not found:
             return e
         e = e.xreplace(found)
@@ -233,8 +236,8 @@ def close(goal: Goal) -> list[Goal]:
     return []
 
 
-def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr]) -> list[Goal]:
-    """Replace the left side of an equation that holds by its right side, inside the lemma's own domain."""
+def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr], back: bool = False) -> list[Goal]:
+    """Replace the left side of an equation that holds by its right side, inside the lemma's own domain; or ``back``."""
     index = {v.symbol: v.member(v.index) for v in proven.domain.variables if isinstance(v, Integers)}
     mapping = {**{v: k for v, k in index.items() if v not in mapping}, **mapping}
     for v in proven.domain.variables:
@@ -253,7 +256,9 @@ def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr]) -> list[Goal]
     demand(not bound & taken, lambda: f"{bound & taken} would be captured by {proven.id}")
     old = proven.left.subs(mapping, simultaneous=True)
     new = proven.form.subs(mapping, simultaneous=True)
-    demand(occurs(old, goal.left), lambda: f"the left side of {proven.id}, {old}, does not occur")
+    if back:
+        old, new = new, old
+    demand(occurs(old, goal.left), lambda: f"the side of {proven.id} that is to be replaced, {old}, does not occur")
     for piece in contexts(goal, old):
         for variable in proven.domain.variables:
             if isinstance(variable, Choices):
@@ -378,6 +383,14 @@ def _critical(e: Expr, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], 
         elif isinstance(node, gamma | factorial | binomial):
             free = [a for a in node.args if not a.is_integer]
             demand(not free, lambda: f"{node} is not known to be smooth")
+        elif isinstance(node, besseli):
+            demand(bool(node.args[0].is_integer), lambda: f"{said(node)} is not of integer order")
+        elif isinstance(node, hyper):
+            above, below, _ = node.args
+            natural = len(above) == 0 and all(b.is_integer and b.is_positive for b in below)
+            demand(natural, lambda: f"{said(node)} is not known to be smooth")
+        elif isinstance(node, Tuple):
+            continue
         elif not isinstance(node, ENTIRE):
             # a list of what is smooth, since a list of what is not would always miss one
             raise Refused(f"{said(node)} is not known to be smooth")

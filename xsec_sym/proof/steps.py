@@ -115,7 +115,10 @@ class Step:
                      "mapping": {sympify(k): sympify(v) for k, v in (mapping or {}).items()}}  # fmt: skip
         return self._move("fact", said, **data)
 
-    def unfold(self) -> Step:
+    def unfold(self, only: str = "") -> Step:
+        """Write out every definition, or only those of one name."""
+        if only:
+            return self._move("unfold", f"write out the definition of {only}", only=only)
         return self._move("unfold", "write out the definitions")
 
     def swap(self) -> Step:
@@ -131,11 +134,14 @@ class Step:
     def settle(self) -> Step:
         return self._move("settle", "take the branches that hold here")
 
-    def lemma(self, proven: Claim | str, mapping: Mapping[Any, Any] | None = None) -> Step:
+    def lemma(self, proven: Claim | str, mapping: Mapping[Any, Any] | None = None, back: bool = False) -> Step:
+        """Replace the left side of an equation that holds by its right side; ``back`` the other way round."""
         name = proven if isinstance(proven, str) else proven.id
         filled = {sympify(k): sympify(v) for k, v in (mapping or {}).items()}
         at = ", ".join(f"{k} = {v}" for k, v in filled.items() if k != v)
-        return self._move("lemma", f"by {name}" + (f" with {at}" if at else ""), proven=name, mapping=filled)
+        data: dict[str, Any] = {"proven": name, "mapping": filled} | ({"back": True} if back else {})
+        said = f"by {name}" + (" from right to left" if back else "") + (f" with {at}" if at else "")
+        return self._move("lemma", said, **data)
 
     def ode(self, x: Symbol, coefficients: Iterable[Any], at: Any) -> Step:
         listed = [sympify(c) for c in coefficients]
@@ -147,6 +153,10 @@ class Step:
         where = f" at {', '.join(map(str, points))}" if points else ""
         return self._move("split", f"cut the integral over {chosen.limits[0][0]}{where}", integral=chosen,
                           points=[sympify(p) for p in points])  # fmt: skip
+
+    def extend(self, end: Any, integral: Integral | int | None = None) -> Step:
+        said = f"go on to {end}, and take off what that adds"
+        return self._move("extend", said, integral=self._integral(integral), end=sympify(end))
 
     def linear(self, *terms: Any, integral: Integral | int | None = None) -> Step:
         chosen = self._integral(integral)
@@ -196,6 +206,48 @@ class Step:
         said = f"the integrand lies above {minorant}, whose integral is infinite at the {end} end"
         return self._move("diverges", said, integral=self._integral(integral), minorant=sympify(minorant),
                           strength=sympify(strength), order=order, end=end)  # fmt: skip
+
+    def turn(self, u: Any, seen: Symbol | None = None, form: Any = None,
+             integral: Integral | int | None = None) -> Step:  # fmt: skip
+        said = f"turn the sphere: the direction at {u} becomes the pole"
+        shape = {} if seen is None else {"seen": seen, "form": sympify(form)}
+        return self._move("turn", said, integral=self._integral(integral), u=sympify(u), **shape)
+
+    def bessel(self, order: Any, argument: Any, factor: Any = 1, integral: Integral | int | None = None) -> Step:
+        said = f"the integral over the angle is a Bessel function of order {order} at {argument}"
+        return self._move("bessel", said, integral=self._integral(integral), order=sympify(order),
+                          argument=sympify(argument), factor=sympify(factor))  # fmt: skip
+
+    def wave(self, old: Any, t: Symbol) -> Step:
+        return self._move("wave", f"{old} as an integral over the circle", old=old, t=t)
+
+    def shear(self, a: Symbol, b: Symbol, new: Any, integral: Integral | int | None = None) -> Step:
+        chosen = self._integral(integral)
+        return self._move("shear", f"shear the torus: {a} is the sum of the angles, {b} their difference",
+                          integral=chosen, a=a, b=b, new=sympify(new))  # fmt: skip
+
+    def beats(self, integral: Integral | int | None = None) -> Step:
+        return self._move("beats", "products of cosines as sums", integral=self._integral(integral))
+
+    def harmonics(self, index: Symbol, proven: Claim | str, mapping: Mapping[Any, Any] | None = None,
+                  integral: Integral | int | None = None) -> Step:  # fmt: skip
+        name = proven if isinstance(proven, str) else proven.id
+        filled = {sympify(k): sympify(v) for k, v in (mapping or {}).items()}
+        return self._move("harmonics", f"integrate the Fourier series, its coefficients by {name}",
+                          integral=self._integral(integral), index=index, proven=name, mapping=filled)  # fmt: skip
+
+    def taylor(self, weight: Any, inner_map: Any, z: Symbol, index: Symbol, family: Any, moment: Any,
+               integral: Integral | int | None = None) -> Step:  # fmt: skip
+        said = f"integrate the Taylor series in {inner_map} term by term, its derivatives being {family}"
+        return self._move("taylor", said, integral=self._integral(integral), weight=sympify(weight),
+                          inner_map=sympify(inner_map), z=z, index=index, family=sympify(family),
+                          moment=sympify(moment))  # fmt: skip
+
+    def peel(self, total: Sum | None = None) -> Step:
+        chosen = total or next(iter(sorted(self.left.atoms(Sum), key=str)), None)
+        if chosen is None:
+            raise Refused(f"no sum is left in {self.left}")
+        return self._move("peel", "take the first term out of the sum", total=chosen)
 
     def close(self) -> Step:
         return self._move("close", "both sides are the same polynomial in the same atoms")

@@ -133,7 +133,7 @@ def encode(value: Any) -> Any:
         return ["sym", value.name, *(a for a in _ASSUMED if getattr(value, f"is_{a}") is True)]
     if value in _NAMES:
         return ["atom", _NAMES[value]]
-    name = value.func.__name__
+    name = "Tuple" if isinstance(value, Tuple) else value.func.__name__  # the lists of a hyper are a kind of tuple
     if name not in HEADS:
         if isinstance(value, sympy.core.function.AppliedUndef):
             assumed = {a: True for a in _ASSUMED if value.func._kwargs.get(a) is True}
