@@ -18,7 +18,8 @@ from flint import acb, arb, ctx
 
 from xsec_sym.proof.scaled import scaled_bessel
 
-RESTS_ON = ("xsec:sg-integral",)
+RESTS_ON = ("xsec:sg-integral", "xsec:sg-chebyshev")
+CHECKED_BY = ("xsec:sg-positive",)  # an integral that shares nothing with these
 SERIES = 3_000  # up to this kappa the series is the faster one
 
 
@@ -85,15 +86,15 @@ def _scaled(u: arb, kappa: arb) -> arb:
     return even + u * ((1 + small) / 2 - (1 - small) / (2 * kappa) + _primitive(u, kappa))
 
 
-def majorant(u: acb, alpha: acb) -> arb:
-    """A number that |sigma| nowhere exceeds on a box of complex u and alpha.
+def majorant(u: acb, square: acb) -> arb:
+    """A number that |sigma| nowhere exceeds on a box of complex u and alpha^2, on which alone it depends.
 
     About the viewer, sigma = kappa / (4 pi sinh kappa) times the integral over the hemisphere of cosine times
     exp(kappa (u cos t + s sin t cos phi)). The real part of the exponent is the product of a unit vector with one of
     length N, N^2 = Re(kappa u)^2 + Re(kappa s)^2 = Re(kappa)^2 + |kappa|^2 y, y = sinh^2(Im psi) = (|u|^2 + |s|^2 -
     1) / 2. The cosine is at most 1, so |sigma| <= |kappa / sinh kappa| sinh(N) / N, which grows with N.
     """
-    kappa = 2 / (alpha * alpha)
+    kappa = 2 / square
     y = ((abs(u * u) + abs(1 - u * u) - 1) / 2).upper()
     y = y if y > 0 else arb(0)
     size, real = arb(abs(kappa).upper()), arb(kappa.real.abs_upper())

@@ -176,7 +176,7 @@ def _degree(
     own, other = (x, y) if first else (y, x)
     if own[0] == own[1]:
         return 0, 0.0
-    best: tuple[int, float] = (MOST + 1, inf)
+    best: tuple[int, float] = (10**9, inf)
     for rho in ELLIPSES:
         size = _on_ellipse(f, own, other, rho, first)
         if size == inf:

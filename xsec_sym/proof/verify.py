@@ -74,7 +74,7 @@ def _verify(
     if claim.kind in ("definition", "out-of-scope"):
         return Verdict(claim.kind, note=claim.reading if claim.kind == "out-of-scope" else "")
     if claim.accuracy is not None:
-        return judged(claim, claims, recorded if count < WITNESSES else None, seed)
+        return judged(claim, claims, recorded if count < WITNESSES else None)
     certificate, steps, refusal = _proof(claim, claims, recorded)
     if is_infinite(claim.form):
         return _divergence(claim, certificate, steps, refusal, seed)
