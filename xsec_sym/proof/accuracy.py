@@ -16,6 +16,7 @@ class Chart:
 
     ``across`` is the first variable and ``rough`` the second, in terms of x and y; ``y_of`` is y in terms of the
     second. ``form`` is the approximant in x and y, written so that wide balls stay narrow; it must equal the claim's.
+    ``fine`` names parts of it that depend on y alone, and cancel so much that wide balls are cut up for them.
     ``even`` says why the error is the same on both sides of 0, where x covers one of them only. ``removable`` is a y at which that form is bounded but its parts are not.
     """
 
@@ -26,6 +27,7 @@ class Chart:
     y_of: Expr
     reach: tuple[Expr, Expr]
     form: Expr
+    fine: tuple[tuple[Symbol, Expr], ...] = ()
     even: str = ""
     removable: float | None = None
 
@@ -52,13 +54,14 @@ class Limit:
 class Accuracy:
     """Within ``within`` for the claim's whole domain; its second variable ends at ``end`` on the harder side.
 
-    ``start`` is where the search begins, in y: past the limit, or at the easy end of the range. None for ``within``
-    asks ten times the error of the mended form.
+    ``by`` is the id of the claim, of the same form and with the same accuracy, that bounds the error, where this one
+    only holds the print against it. ``start`` is where the search begins, in y: past the limit, or at the easy end of the range.
     """
 
-    within: Expr | None
+    within: Expr
     chart: Chart
     start: Expr
     end: Expr
     tail: Tail | None = None
     limit: Limit | None = None
+    by: str = ""

@@ -11,7 +11,7 @@ from sympy import Expr
 from xsec_sym.proof.accuracy import Accuracy
 from xsec_sym.proof.ball_compile import NoEnclosure
 from xsec_sym.proof.claim import Claim
-from xsec_sym.proof.error import Error, Unbounded, ceiling, lemmas_of, short, shown, spread, surface
+from xsec_sym.proof.error import Error, Unbounded, ceiling, decimal, lemmas_of, short, shown, spread, surface
 from xsec_sym.proof.mutants import mutants
 from xsec_sym.proof.reach import SHARP, Found, searched
 from xsec_sym.proof.suprema import panels
@@ -28,6 +28,8 @@ def judged(claim: Claim, claims: Mapping[str, Claim], recorded: Any) -> Verdict:
     """
     assert claim.accuracy is not None
     try:
+        if claim.accuracy.by:
+            return _held_against(claim, claim.accuracy, claims)
         if recorded is None:
             found = searched(claim, claim.accuracy, claims)
         else:
@@ -35,6 +37,36 @@ def judged(claim: Claim, claims: Mapping[str, Claim], recorded: Any) -> Verdict:
         return _verdict(claim, found, recorded is None)
     except (Unbounded, NoEnclosure, Undecided) as reason:
         return Verdict("inconclusive", note=str(reason))
+
+
+def _held_against(claim: Claim, spec: Accuracy, claims: Mapping[str, Claim]) -> Verdict:
+    """The print against the form that another claim bounds. Whether that one holds is settled where all are known."""
+    other = claims.get(spec.by)
+    if other is None or other.accuracy is None or other.accuracy.by or other.form != claim.form:
+        raise Unbounded(f"{spec.by} bounds no error of this form")
+    if other.accuracy.within != spec.within or other.domain != claim.domain:
+        raise Unbounded(f"{spec.by} is a claim of another accuracy")
+    tolerance = float(spec.within)
+    last = float(spec.chart.y_of.subs(claim.domain.symbols[1], spec.end)) * (1 - 1e-6)
+    points = [p for p in spread(claim, spec.chart, float(spec.start), last) if claim.domain.holds_at(p)]
+    error = Error(claim, claim.form)
+    sizes = [(p, size) for p in points if (size := error.at(p)).is_finite()]
+    worst, size = max(sizes, key=lambda found: float(found[1].mid()))
+    if not size < tolerance:
+        raise Unbounded(f"the form misses the accuracy at {shown(worst)}")
+    found = Found(tolerance, worst, size, tolerance, spec.end, worst, points, {}, (spec.by, *lemmas_of(claim)))
+    evidence = {"within": decimal(spec.within), "bounded by": spec.by, "error of the form at points": short(size)}
+    witness, word = None, "claim-holds"
+    if claim.corrected is not None and claim.printed is not None:
+        witness, wrong = _worst_of_print(claim, found)
+        if not wrong > tolerance:
+            raise Unbounded("a correction is offered, but the print was not seen to miss the accuracy")
+        evidence["error of the print"] = short(wrong)
+        word = "misprint"
+    killed = sum(_misses(claim, rival, found, tolerance) is True for rival in mutants(claim.form, []))
+    if killed < MUTANTS:
+        raise Unbounded(f"only {killed} altered forms miss the tolerance")
+    return Verdict(word, witness=witness, evidence=evidence, mutants=killed, certificate=found.certificate(claim))
 
 
 def _verdict(claim: Claim, found: Found, thorough: bool) -> Verdict:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 from math import floor, log10
 from typing import Any
 
-from flint import acb, arb
+from flint import acb, arb, ctx
 from sympy import Expr, Rational, Symbol
 
 from xsec_sym.proof.accuracy import Chart
@@ -15,6 +16,7 @@ from xsec_sym.proof.ball_compile import compile_ball, precision
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.suprema import BITS, Surface, compiled
 
+PIECES = 4  # each way
 Point = dict[Symbol, Expr]
 
 
@@ -71,7 +73,7 @@ def left_value(claim: Claim, given: list[arb]) -> arb:
 def surface(claim: Claim, chart: Chart) -> Surface:
     """The error in the coordinates of the chart."""
     xy = (chart.x, chart.y)
-    value, majorant = compiled(compile_ball(chart.form, xy))
+    value, majorant = compiled(on_chart(chart))
     across, rough = (compile_ball(e, xy) for e in (chart.across, chart.rough))
     square = compile_ball(chart.rough**2, xy)
     fast = fast_of(claim)
@@ -92,6 +94,45 @@ def surface(claim: Claim, chart: Chart) -> Surface:
         lambda x, y: majorant(x, y) + left_majorant(x, y),
         chart.removable,
     )
+
+
+def on_chart(chart: Chart) -> Any:
+    """The chart's form as a closure, its fine parts filled in."""
+    form = compile_ball(chart.form, (chart.x, chart.y, *(name for name, _ in chart.fine)))
+    parts = [_finely(compile_ball(e, (chart.y,))) for _, e in chart.fine]
+
+    def run(given: Any, analytic: bool) -> acb:
+        return form((*given, *(part(given[1], analytic) for part in parts)), analytic)
+
+    return run
+
+
+def _finely(run: Any) -> Any:
+    """The hull of a function over the pieces of a wide box."""
+    kept: dict[Any, acb] = {}
+
+    def at(z: acb, analytic: bool) -> acb:
+        key = (ctx.prec, z.real.mid(), z.real.rad(), z.imag.mid(), z.imag.rad(), analytic)
+        if key not in kept and z.real.rad() < 1e-9 and z.imag.rad() < 1e-9:
+            kept[key] = run((z,), analytic)
+        if key not in kept:
+            across, up = (_cut(part) for part in (z.real, z.imag))
+            found = None
+            for a in across:
+                for b in up:
+                    here = run((acb(a, b),), analytic)
+                    found = here if found is None else found.union(here)
+            kept[key] = found
+        return kept[key]
+
+    return at
+
+
+def _cut(part: arb) -> list[arb]:
+    if part.is_exact():
+        return [part]
+    ends = [part.lower() + (part.upper() - part.lower()) * i / PIECES for i in range(PIECES + 1)]
+    return [a.union(b) for a, b in pairwise(ends)]
 
 
 def onto(claim: Claim, chart: Chart) -> dict[Symbol, Expr]:
@@ -148,7 +189,8 @@ def decimal(e: Any, digits: int = 4) -> str:
 
 
 def short(size: Any) -> str:
-    return f"{float(size.mid()):.2e}"
+    near = float(size.mid())
+    return f"{near:.2e}" if near < 1e300 else str(size.mid().str(3, radius=False))
 
 
 def ceiling(x: float) -> str:

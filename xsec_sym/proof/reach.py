@@ -36,8 +36,9 @@ from xsec_sym.proof.error import (
 from xsec_sym.proof.suprema import BITS, Panel, Surface, panels
 from xsec_sym.proof.tried import tried
 
-LOOSE, SHARP = 0.2, 2e-5  # how wrong an interpolant may be, per tolerance: far from the end, and next to it
-STEP = 1.35  # from one strip of the roughness range to the next
+LOOSE, SHARP = 0.3, 1e-4  # how wrong an interpolant may be, per tolerance: far from the end, and next to it
+STEP = 1.2  # from one strip of the roughness range to the next
+FIRST = 0.5  # the first strip where the range begins at y = 0
 FARTHEST = 400  # strips
 
 
@@ -113,8 +114,6 @@ class Strip:
 
 def searched(claim: Claim, spec: Accuracy, claims: Mapping[str, Claim]) -> Found:
     """Bound the error from the start of the range to past its reach and past the claim's end."""
-    if spec.within is None:
-        raise Unbounded("no accuracy is stated")
     chart, tolerance = spec.chart, float(spec.within)
     checks = tried(claim, spec, claims)
     ground = _limit(spec, tolerance)
@@ -159,8 +158,8 @@ def _strips(claim: Claim, spec: Accuracy, tolerance: float, y_end: float) -> lis
     strips: list[Strip] = []
     low = float(spec.start)
     while True:
-        high = low * STEP if low > 0 else 0.5
-        sharp = bool(strips) and strips[-1].peak > tolerance / 8 or low <= y_end <= high
+        high = low * STEP if low > 0 else FIRST
+        sharp = bool(strips) and strips[-1].peak > tolerance / 3 or low <= y_end <= high
         made = list(panels(f, reach, (low, high), tolerance * (SHARP if sharp else LOOSE)))
         strips.append(Strip(low, high, made, _beyond(spec, f, (low, high), tolerance * (SHARP if sharp else LOOSE))))
         low = high

@@ -23,9 +23,10 @@ from flint import acb, arb
 
 from xsec_sym.proof.ball_compile import NoEnclosure, precision
 
-BITS = 96
-ELLIPSES = (6.0, 4.0, 3.0, 2.4, 2.0, 1.7, 1.45, 1.25, 1.12)
+BITS, ROUGH = 96, 60  # for values and for bounds
+ELLIPSES = (5.0, 3.5, 2.6, 2.0, 1.6, 1.3, 1.12)
 MOST = 48  # the highest degree; beyond it the rectangle is to be divided
+USELESS = 1e15  # a bound that is larger costs more points than a smaller ellipse
 DEPTH = 7  # how often a box is halved on which the function has no finite bound
 
 
@@ -178,7 +179,8 @@ def _degree(
         return 0, 0.0
     best: tuple[int, float] = (10**9, inf)
     for rho in ELLIPSES:
-        size = _on_ellipse(f, own, other, rho, first)
+        with precision(ROUGH):
+            size = _on_ellipse(f, own, other, rho, first)
         if size == inf:
             continue
         n = max(1, ceil(log(max(4 * size / ((rho - 1) * error), 1.0)) / log(rho) + 1e-9))
@@ -203,7 +205,7 @@ def _on_ellipse(
             for strip in across:
                 box = (arb.pi() * i / arcs, arb.pi() * (i + 1) / arcs, top * j / layers, top * (j + 1) / layers)
                 here = _in_box(f, box, middle, half, strip, first, 0)
-                if here == inf:
+                if here > USELESS:
                     return inf
                 largest = max(largest, here)
     return largest

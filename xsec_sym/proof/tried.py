@@ -14,7 +14,7 @@ from xsec_sym.proof.ball_compile import NoEnclosure, compile_ball, precision
 from xsec_sym.proof.balls import enclose
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.digits import NoValue, value
-from xsec_sym.proof.error import Error, Unbounded, ball, edge, fast_of, left_value, onto, roughness, shown
+from xsec_sym.proof.error import Error, Unbounded, ball, edge, fast_of, left_value, on_chart, onto, roughness, shown
 from xsec_sym.proof.suprema import BITS
 from xsec_sym.proof.zeros import Undecided
 
@@ -40,7 +40,7 @@ def _chart(claim: Claim, spec: Accuracy) -> int:
     """The chart's form is the claim's."""
     chart = spec.chart
     low, high = (sympify(v) for v in chart.reach)
-    run = compile_ball(chart.form, (chart.x, chart.y))
+    run = on_chart(chart)
     own = compile_ball(claim.form.subs(onto(claim, chart), simultaneous=True), (chart.x, chart.y))
     across = [low + (high - low) * Rational(2 * i + 1, 11) for i in range(5)]
     with precision(8 * BITS):
