@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from math import inf
 from typing import Any
 
@@ -72,17 +73,26 @@ class Beyond:
     panels: list[Panel]
     extra: Any
 
-    def bound(self, y: tuple[float, float]) -> float:
+    def bound(self, y: tuple[float, float], enough: float = 0.0) -> float:
+        """For all of a range of y; it is made sharp only where it exceeds what is ``enough``."""
         here = [p for p in self.panels if p.y[0] <= y[1] and y[0] <= p.y[1]]
         on_edge = max(p.bound((max(y[0], p.y[0]), min(y[1], p.y[1]))) for p in here)
-        count = 1 if y[0] == y[1] else 1500
-        cuts = [y[0] + (y[1] - y[0]) * i / count for i in range(count + 1)]
+        earlier = inf
+        for count in (1,) if y[0] == y[1] else (16, 128, 1024):
+            most = self._extra(y, count)
+            if on_edge + most <= enough or earlier - most < 1e-4 * most:
+                break
+            earlier = most
+        return (on_edge + most) * (1 + 1e-12)
+
+    def _extra(self, y: tuple[float, float], count: int) -> float:
+        cuts = [y[0] + (y[1] - y[0]) * i / count for i in range(count)] + [y[1]]
         with precision(BITS):
-            steps = [acb(arb(cuts[i]).union(arb(cuts[i + 1]))) for i in range(count)]
+            steps = [acb(arb(a).union(arb(b))) for a, b in pairwise(cuts)]
             most = max(float(self.extra((step,), False).real.upper()) for step in steps)
         if not most < inf:
             raise Unbounded("the tail has no finite bound")
-        return (on_edge + most) * (1 + 1e-12)
+        return most
 
 
 @dataclass(frozen=True)
@@ -109,7 +119,7 @@ class Strip:
                 here = p.bound(y, 24)
                 # many points where it matters: the loss falls with the square of their number
                 largest = max(largest, p.bound(y, 160) if here > 0.9 * largest else here)
-        return max(largest, self.beyond.bound((self.low, min(self.high, end))) if self.beyond else 0.0)
+        return max(largest, self.beyond.bound((self.low, min(self.high, end)), largest) if self.beyond else 0.0)
 
 
 def searched(claim: Claim, spec: Accuracy, claims: Mapping[str, Claim]) -> Found:

@@ -179,8 +179,9 @@ def _degree(
         return 0, 0.0
     best: tuple[int, float] = (10**9, inf)
     for rho in ELLIPSES:
+        limit = float(min(USELESS, rho ** min(best[0], MOST) * (rho - 1) * error / 4))
         with precision(ROUGH):
-            size = _on_ellipse(f, own, other, rho, first)
+            size = _on_ellipse(f, own, other, rho, first, limit)
         if size == inf:
             continue
         n = max(1, ceil(log(max(4 * size / ((rho - 1) * error), 1.0)) / log(rho) + 1e-9))
@@ -192,20 +193,24 @@ def _degree(
 
 
 def _on_ellipse(
-    f: Surface, own: tuple[float, float], other: tuple[float, float], rho: float, first: bool
+    f: Surface, own: tuple[float, float], other: tuple[float, float], rho: float, first: bool, limit: float
 ) -> float:
-    """A bound on |f| in the ellipse about one interval while the other variable runs over its own interval."""
+    """A bound on |f| in the ellipse about one interval while the other variable runs over its own interval.
+
+    Infinity as soon as it is seen to exceed the limit, beyond which this ellipse is of no use.
+    """
     middle, half = _middle(own)
     across = _strips(f, other, first)
     largest = 0.0
     arcs, layers = 12, 2
     top = arb(rho).log()
-    for i in range(arcs):
-        for j in range(layers):
+    # the top of the ellipse first, where most functions are largest
+    for i in sorted(range(arcs), key=lambda i: abs(2 * i + 1 - arcs)):
+        for j in reversed(range(layers)):
             for strip in across:
                 box = (arb.pi() * i / arcs, arb.pi() * (i + 1) / arcs, top * j / layers, top * (j + 1) / layers)
                 here = _in_box(f, box, middle, half, strip, first, 0)
-                if here > USELESS:
+                if here > limit:
                     return inf
                 largest = max(largest, here)
     return largest
