@@ -3,13 +3,10 @@
 from sympy import (
     Abs,
     Integral,
-    Rational,
-    Symbol,
     besseli,
     cos,
     cosh,
     coth,
-    csch,
     diff,
     exp,
     hyper,
@@ -19,11 +16,10 @@ from sympy import (
     sinh,
     sqrt,
     symbols,
-    tanh,
 )
 
 from derivations.extensions.ring_lemma import CLOSED, over_the_band
-from xsec_sym.exact import AZIMUTH, RingSpread, SigmaSphericalGaussian, SpreadSphericalGaussian, spherical_gaussian
+from xsec_sym.exact import AZIMUTH, RingSpread, SigmaSphericalGaussian, spherical_gaussian
 from xsec_sym.exact.distributions import INCLINATION
 from xsec_sym.proof import Source, interval
 
@@ -93,6 +89,7 @@ hemisphere = project.claim(
 def mirror(step):
     step.swap().lemma(sphere, {k: k}, back=True).split(0)
     step.substitute(w, -w, 1, 0, step.over(-1, 0))
+
 
 growth = project.claim(
     "sg-growth",
@@ -215,7 +212,7 @@ def from_the_ring_lemma(step):
         # the rest of the integrand is the derivative of tau I_1 / t, and an entire function of t
         edge = -tau * besseli(1, kappa * tau) / t
         here = entire.subs(k, kappa)
-        first.linear(alpha**2 * pi * edge.diff(t), -alpha**2 * pi * here)
+        first.linear(alpha**2 * pi * edge.diff(t), -(alpha**2) * pi * here)
         first.antiderivative(edge, next(i for i in first.integrals if not i.has(hyper)))
         first.swap()
         (sweep,) = first.integrals
@@ -233,11 +230,34 @@ def at_the_equator(step):
 mean = project.claim(
     "sg-odd",
     "opposite views differ by a linear function, whose slope is the mean cosine",
-    left=SigmaSphericalGaussian(u, alpha) - SigmaSphericalGaussian(-u, alpha),
-    corrected=(coth(kappa) - 1 / kappa) * u,
+    left=(SigmaSphericalGaussian(u, alpha) - SigmaSphericalGaussian(-u, alpha)) / 2,
+    corrected=(coth(kappa) - 1 / kappa) * u / 2,
     where=SEEN,
     reduces=("xsec:sg-positive",),
 )
+
+
+def legendre(f):
+    """Legendre's operator of degree 1, whose solutions are u and u artanh(u) - 1."""
+    return diff((1 - u**2) * diff(f, u), u) + 2 * f
+
+
+equation = project.claim(
+    "sg-ode",
+    "the cross-section solves Legendre's equation of degree 1 with a Bessel function as its source",
+    left=legendre(whole.corrected),
+    corrected=kappa * besseli(0, kappa * s) / (2 * sinh(kappa)),
+    where=[interval(u, -1, 1, open=True), ROUGHNESS],
+    reading="sigma is put in as sg-integral has it and differentiated there; the source is the mean of the spherical "
+    "Gaussian over the great circle that the viewer sees edge-on, times 2 pi",
+)
+
+
+@equation.proof
+def differentiated(step):
+    """The integral's own derivative is its integrand, and what is left of it cancels."""
+    for branch in step.cases(u):
+        branch.close()
 
 
 def both_views(step):

@@ -1,8 +1,8 @@
 """The spherical Gaussian's cross-section as a series: Fourier in the viewer's elevation, which is Chebyshev in u."""
 
-from sympy import Integral, Sum, besseli, cos, cosh, exp, oo, pi, sin, sinh, sqrt, symbols
+from sympy import Integral, Sum, besseli, cos, cosh, exp, oo, pi, sin, sinh, symbols
 
-from derivations.extensions.spherical_gaussian import ROUGHNESS, SEEN, alpha, kappa, s, u, whole
+from derivations.extensions.spherical_gaussian import ROUGHNESS, alpha, kappa, u, whole
 from xsec_sym.exact import SigmaSphericalGaussian
 from xsec_sym.proof import Source, integers, interval
 

@@ -340,4 +340,14 @@ def diverges(goal: Goal, integral: Integral, minorant: Expr, strength: Expr, ord
     return []
 
 
-__all__ = ["antiderivative", "diverges", "exchange", "extend", "linear", "recurrence", "split", "substitute", "telescope"]
+__all__ = [
+    "antiderivative",
+    "diverges",
+    "exchange",
+    "extend",
+    "linear",
+    "recurrence",
+    "split",
+    "substitute",
+    "telescope",
+]

@@ -14,6 +14,7 @@ from sympy import Expr, latex, sympify
 
 from xsec_sym.proof.accuracy import Accuracy
 from xsec_sym.proof.domain import Domain, domain
+from xsec_sym.proof.magnitude import Magnitude
 
 KINDS = ("equation", "definition", "statement", "whole", "out-of-scope", "approximation", "accuracy")
 
@@ -180,6 +181,11 @@ class Source:
     def accuracy(self, label: str, title: str, **rest: Any) -> Claim:
         """An accuracy that the source states of a form."""
         return self.approximation(label, title, statement=True, **rest)
+
+    def inequality(self, label: str, title: str, greater: Any, lesser: Any = 0, **rest: Any) -> Claim:
+        """A statement that one side is nowhere smaller than the other: the magnitude of the difference is itself."""
+        gap = sympify(greater) - sympify(lesser)
+        return self.claim(label, title, left=Magnitude(gap), corrected=gap, statement=True, **rest)
 
     def definition(self, label: str, title: str, *, left: Any, printed: Any, reading: str = "") -> Claim:
         """A display that only introduces a symbol: nothing in it could be false."""

@@ -169,7 +169,7 @@ def _strips(claim: Claim, spec: Accuracy, tolerance: float, y_end: float) -> lis
     low = float(spec.start)
     while True:
         high = low * STEP if low > 0 else FIRST
-        sharp = bool(strips) and strips[-1].peak > tolerance / 3 or low <= y_end <= high
+        sharp = (bool(strips) and strips[-1].peak > tolerance / 3) or low <= y_end <= high
         made = list(panels(f, reach, (low, high), tolerance * (SHARP if sharp else LOOSE)))
         strips.append(Strip(low, high, made, _beyond(spec, f, (low, high), tolerance * (SHARP if sharp else LOOSE))))
         low = high
@@ -238,5 +238,6 @@ def _candidate(chart: Chart, strips: list[Strip], y: float, error: Error) -> Poi
     x = max(lines)[1]
     r = roughness(chart, Rational(f"{y:.9g}"))
     last = 1 - Rational(1, 10**6)  # where a form is undefined at the pole itself
-    sizes = [({u: v, m: r}, error.at({u: v, m: r})) for v in (edge(chart, x, y), Rational(1), Rational(-1), last, -last)]
+    places = (edge(chart, x, y), Rational(1), Rational(-1), last, -last)
+    sizes = [({u: v, m: r}, error.at({u: v, m: r})) for v in places]
     return max((float(size.mid()), i, p) for i, (p, size) in enumerate(sizes) if size.is_finite())[2]
