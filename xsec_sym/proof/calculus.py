@@ -303,7 +303,9 @@ def telescope(goal: Goal, total: Sum, primitive: Expr) -> list[Goal]:
     demand(len(total.limits) == 1, lambda: f"{total} is not over one index")
     j, low, high = total.limits[0]
     gap = total.function - (primitive - primitive.subs(j, j - 1))
-    demand(goal.piece.is_zero(gap), lambda: f"{total.function} is not the difference of {primitive}")
+    demand(not goal.piece.facts_about(j), lambda: f"{j} is used twice")
+    here = goal.piece.extended([(j - low, False)])
+    demand(here.is_zero(gap), lambda: f"{total.function} is not the difference of {primitive}")
     value = primitive.subs(j, high) - primitive.subs(j, low - 1)
     return [goal.with_left(goal.left.xreplace({total: value}))]
 
