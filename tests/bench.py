@@ -64,6 +64,32 @@ def kernel_rows() -> list[Row]:
     return rows
 
 
+def lobe_rows() -> list[Row]:
+    """The four distributions, with an array of roughnesses as long as that of cosines, and with a single one."""
+    from xsec_sym import kernels
+
+    rng = np.random.default_rng(2)
+    u, shape = rng.uniform(-1, 1, VALUES), rng.uniform(0.1, 1, VALUES)
+    exp, copy = median_seconds(lambda: np.exp(u)), median_seconds(u.copy)
+    rows = [(name, f"{1e9 * seconds / VALUES:.2f} ns/value", "") for name, seconds in (("np.exp", exp), ("copy", copy))]
+    names = [f"{quantity}_{name}" for name in ("beckmann", "ggx") for quantity in ("sigma", "lambda", "ndf")]
+    names += ["sigma_ellipsoidal", "ndf_ellipsoidal", "ndf_spherical_gaussian", "sigma_spherical_gaussian"]
+    for name in names:
+        kernel: Callable[..., object] = getattr(kernels, name)
+        n, repeats = (VALUES // 50, 3) if kernel is kernels.sigma_spherical_gaussian else (VALUES, REPEATS)
+        cosine = (np.abs(u) if name.startswith("lambda") else u)[:n]
+        arguments = {
+            "": (cosine, shape[:n]),
+            ", one roughness": (cosine, 0.3),
+            ", float32": (cosine.astype(np.float32), shape[:n].astype(np.float32)),
+        }
+        for remark, pair in arguments.items():
+            seconds = median_seconds(lambda kernel=kernel, pair=pair: kernel(*pair), repeats) / n * VALUES
+            ratios = f"{seconds / exp:.1f} x np.exp, {seconds / copy:.1f} x copy"
+            rows.append((name + remark, f"{1e9 * seconds / VALUES:.2f} ns/value", ratios))
+    return rows
+
+
 def cross_section_rows() -> list[Row]:
     from xsec_sym.kernels import cross_section
 
@@ -94,13 +120,13 @@ def command_rows() -> list[Row]:
     return rows
 
 
-SECTIONS: list[Callable[[], list[Row]]] = [import_rows, kernel_rows, cross_section_rows, command_rows]
+SECTIONS: list[Callable[[], list[Row]]] = [import_rows, kernel_rows, lobe_rows, cross_section_rows, command_rows]
 
 
 def main() -> None:
     for section in SECTIONS:
         for name, figure, remark in section():
-            print(f"{name:32}{figure:>18}   {remark}".rstrip(), flush=True)
+            print(f"{name:42}{figure:>18}   {remark}".rstrip(), flush=True)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,10 @@ the cross-section, on which the proofs lean, stand in `derivations/extensions/sp
 """
 
 from sympy import (
+    Function,
     Integral,
+    Max,
+    Rational,
     Sum,
     besseli,
     cosh,
@@ -13,7 +16,9 @@ from sympy import (
     csch,
     exp,
     factorial,
+    gamma,
     hyper,
+    legendre,
     oo,
     sinh,
     sqrt,
@@ -37,7 +42,7 @@ from derivations.extensions.spherical_gaussian import (
 )
 from xsec_sym.exact import SigmaSphericalGaussian, SpreadSphericalGaussian, spherical_gaussian
 from xsec_sym.exact.distributions import INCLINATION as x
-from xsec_sym.proof import Source
+from xsec_sym.proof import Source, integers
 
 paper = Source("deon2016", section="2.5")
 
@@ -46,7 +51,7 @@ j = symbols("j", integer=True, nonnegative=True)
 sigma = SigmaSphericalGaussian
 PER_STERADIAN = "D per steradian, unit mass; u_i is written u"
 
-paper.definition("28", "the spherical Gaussian", left=spherical_gaussian(u, alpha), printed=spherical_gaussian(u, alpha),
+paper.definition("28", "the spherical Gaussian", left=Function("D_SG")(u), printed=spherical_gaussian(u, alpha),
                  reading="per steradian: its mass is a claim of its own")  # fmt: skip
 
 mass = paper.claim(
@@ -245,6 +250,69 @@ def bessel_function_of_the_band(step):
     step.unfold("SpreadSphericalGaussian")
     for branch, here in poles(step):
         branch.linear(branch.integrals[0].function).lemma(band, {u: here, k: kappa})
+
+
+# --- spherical harmonics -----------------------------------------------------------------------------------
+
+l = symbols("l", integer=True, nonnegative=True)
+moment_of_gaussian = Integral(spherical_gaussian(x, alpha) * legendre(l, x), (x, -1, 1))
+
+paper.definition("39", "the moments of the spherical Gaussian", left=Function("c")(l), printed=moment_of_gaussian,
+                 reading="per steradian, with no factor of 2 pi and no (2 l + 1) / 2")  # fmt: skip
+
+even_moment = paper.claim(
+    "38.even",
+    "the moments of the clamped cosine with the even Legendre polynomials",
+    left=Integral(Max(0, x) * legendre(2 * l + 2, x), (x, -1, 1)),
+    printed=sqrt(circle) / (4 * gamma(Rational(1, 2) - l) * gamma(l + 3)),
+    where=[integers(l)],
+    reading="degree 2 l + 2; the print has one expression for every degree",
+)
+
+
+def over_the_half_range(step, degree, integral=None):
+    """(1 - x^2) (P - x P') has the derivative (l - 1) (l + 2) x P, by Legendre's equation."""
+    here, before = legendre(degree, x), legendre(degree - 1, x)
+    slope = degree * (before - x * here)  # (1 - x^2) P'
+    step.split(0, integral=integral)
+    half = next(i for i in step.integrals if i.limits[0][1:] == (0, 1) and not i.has(exp))
+    step.antiderivative(((1 - x**2) * here - x * slope) / ((degree - 1) * (degree + 2)), half)
+
+
+@even_moment.proof
+def even_degrees(step):
+    (n,) = step.right.free_symbols
+    over_the_half_range(step, 2 * n + 2)
+
+
+harmonics = paper.claim(
+    "38",
+    "the cross-section in spherical harmonics",
+    left=sigma(u, alpha),
+    printed=Sum(
+        circle ** Rational(3, 2) * (2 * l + 1) * moment_of_gaussian * legendre(l, u)
+        / (4 * gamma(Rational(3, 2) - l / 2) * gamma(l / 2 + 2)),
+        (l, 0, oo),
+    ),
+    where=SEEN,
+    reduces=("xsec:sg-integral",),
+    reading=PER_STERADIAN + "; 1 / Gamma is 0 at the poles, so that every odd term but the first vanishes",
+)  # fmt: skip
+
+
+@harmonics.proof
+def funk_and_hecke(step):
+    step.unfold().funk_hecke(u, l).parities().swap().parities().swap()
+    for _ in range(2):
+        for parity in (2, 3):
+            step.peel(1, next(t for t in step.left.atoms(Sum) if t.has(legendre(parity - 2 + 2 * l, u))))
+        step.swap()
+    clamped = Max(0, x)
+    step.lemma(even_moment, {l: l})
+    over_the_half_range(step, 2 * l + 3, Integral(clamped * legendre(2 * l + 3, x), (x, -1, 1)))
+    for degree in (0, 1):
+        step.split(0, integral=Integral(clamped * x**degree, (x, -1, 1)))
+        step.antiderivative(x ** (degree + 2) / (degree + 2), Integral(x ** (degree + 1), (x, 0, 1)))
 
 
 if __name__ == "__main__":

@@ -237,6 +237,29 @@ mean = project.claim(
 )
 
 
+def legendre(f):
+    """Legendre's operator of degree 1, whose solutions are u and u artanh(u) - 1."""
+    return diff((1 - u**2) * diff(f, u), u) + 2 * f
+
+
+equation = project.claim(
+    "sg-ode",
+    "the cross-section solves Legendre's equation of degree 1 with a Bessel function as its source",
+    left=legendre(whole.corrected),
+    corrected=kappa * besseli(0, kappa * s) / (2 * sinh(kappa)),
+    where=[interval(u, -1, 1, open=True), ROUGHNESS],
+    reading="sigma is put in as sg-integral has it and differentiated there; the source is the mean of the spherical "
+    "Gaussian over the great circle that the viewer sees edge-on, times 2 pi",
+)
+
+
+@equation.proof
+def differentiated(step):
+    """The integral's own derivative is its integrand, and what is left of it cancels."""
+    for branch in step.cases(u):
+        branch.close()
+
+
 def both_views(step):
     """The views from u and -u, written with integrals from 0 to u, where u > 0, u < 0, and at either pole."""
     for branch in step.cases(u):

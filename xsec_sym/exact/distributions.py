@@ -16,6 +16,7 @@ from typing import Any
 
 from sympy import Expr, Integral, Symbol, csch, exp, log, pi
 
+from xsec_sym.exact import gaussian_balls
 from xsec_sym.exact.ring import OnTheRing, RingCrossSection, RingSpread
 from xsec_sym.proof.wire import register
 
@@ -103,6 +104,7 @@ class SigmaSphericalGaussian(_SphericalGaussian):
     """The cross-section of the spherical Gaussian."""
 
     symbol = r"\sigma_{SG}"
+    fast = gaussian_balls
 
 
 @register

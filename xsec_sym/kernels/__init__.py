@@ -1,17 +1,31 @@
 """Importable NumPy kernels: the quantities of the papers as functions of arrays, without SymPy or mpmath."""
 
+from xsec_sym.kernels.beckmann import lambda_beckmann, ndf_beckmann, sigma_beckmann
 from xsec_sym.kernels.dirac_ring import sigma_dirac_ring
+from xsec_sym.kernels.ellipsoidal import ndf_ellipsoidal, sigma_ellipsoidal
+from xsec_sym.kernels.ggx import lambda_ggx, ndf_ggx, sigma_ggx
 from xsec_sym.kernels.power import sigma_power
 from xsec_sym.kernels.ring_lemma import CrossSection, cross_section
+from xsec_sym.kernels.spherical_gaussian import ndf_spherical_gaussian, sigma_spherical_gaussian
 from xsec_sym.kernels.table1 import sigma_inv1m, sigma_inv1m2, sigma_inv1p, sigma_inv1pu2
 
 __all__ = [
     "CrossSection",
     "cross_section",
+    "lambda_beckmann",
+    "lambda_ggx",
+    "ndf_beckmann",
+    "ndf_ellipsoidal",
+    "ndf_ggx",
+    "ndf_spherical_gaussian",
+    "sigma_beckmann",
     "sigma_dirac_ring",
+    "sigma_ellipsoidal",
+    "sigma_ggx",
     "sigma_inv1m",
     "sigma_inv1m2",
     "sigma_inv1p",
     "sigma_inv1pu2",
     "sigma_power",
+    "sigma_spherical_gaussian",
 ]

@@ -202,12 +202,12 @@ class Atoms:
                 inside = self.piece.inside(x, low, high).sign(meaning.function)
                 return ">=" if inside in ("+", ">=", "0") else "<=" if inside in ("-", "<=") else None
         if isinstance(meaning, besseli):
-            return self._sign_of_bessel(*meaning.args)
+            return self.sign_of_bessel(*meaning.args)
         if isinstance(meaning, erf | atan | asin):
             return self.piece.sign(meaning.args[0])
         return None
 
-    def _sign_of_bessel(self, n: Expr, z: Expr) -> str | None:
+    def sign_of_bessel(self, n: Expr, z: Expr) -> str | None:
         """I_n(z) is positive for z > 0; for z < 0 it has the sign of (-1)^n."""
         here = self.piece.sign(z)
         if here == "+" or n == 0:

@@ -13,6 +13,8 @@ import sympy as sp
 from flint import acb, arb
 from sympy import S
 
+from xsec_sym.proof.magnitude import Magnitude
+
 NAN = acb(arb("nan"), arb("nan"))
 
 
@@ -169,6 +171,7 @@ TABLE: dict[Any, Callable[..., acb]] = {
     sp.elliptic_e: _elliptic("elliptic_e", "elliptic_e_inc"),
     sp.elliptic_f: lambda a, p, m: NAN if a else p.elliptic_f(m),
     sp.Abs: _abs,
+    Magnitude: _abs,
     sp.sign: real_only(lambda z, a: z.real_sgn(analytic=a)),
     sp.floor: real_only(lambda z, a: z.real_floor(analytic=a)),
     sp.ceiling: real_only(lambda z, a: z.real_ceil(analytic=a)),

@@ -54,7 +54,7 @@ def _at_zero(field: Field, n: Expr) -> Expr:
         return S.One
     if field.piece.sign(n) in ("+", "-"):
         return S.Zero
-    raise Unsettled(f"whether the order {n} is 0 is not known")
+    return field._atom("I", besseli(n, S.Zero))  # 1 or 0, as the order is 0 or not
 
 
 def confluent(field: Field, e: Expr) -> Expr:

@@ -12,9 +12,11 @@ from typing import Any
 
 from sympy import Expr, latex, sympify
 
+from xsec_sym.proof.accuracy import Accuracy
 from xsec_sym.proof.domain import Domain, domain
+from xsec_sym.proof.magnitude import Magnitude
 
-KINDS = ("equation", "definition", "statement", "whole", "out-of-scope")
+KINDS = ("equation", "definition", "statement", "whole", "out-of-scope", "approximation", "accuracy")
 
 
 @dataclass
@@ -34,6 +36,7 @@ class Claim:
     reduces: tuple[str, ...] = ()
     parts: tuple[str, ...] = ()
     points: Mapping[Any, Any] = field(default_factory=dict)
+    accuracy: Accuracy | None = None
     module: str = ""
     prove: Callable[[Any], None] | None = None
 
@@ -138,6 +141,51 @@ class Source:
             reduces=tuple(reduces),
             points=dict(points or {}),
         )
+
+    def approximation(
+        self,
+        label: str,
+        title: str,
+        *,
+        left: Any,
+        accuracy: Accuracy,
+        printed: Any = None,
+        corrected: Any = None,
+        edit: str = "",
+        where: Iterable[Any] = (),
+        reading: str = "",
+        statement: bool = False,
+    ) -> Claim:
+        """A form that is near to ``left``, judged by its error: it holds where it is as ``accuracy`` says.
+
+        It is a misprint where the print is not and the corrected form is. As a ``statement`` the claim is the accuracy
+        itself: it holds or fails, and its evidence says how far it really reaches.
+        """
+        if printed is not None and corrected is not None and not edit:
+            raise ValueError(f"{self.key}:{label} corrects the print without saying in words what to change")
+        if printed is None and corrected is None:
+            raise ValueError(f"{self.key}:{label} says nothing: give a printed or a corrected form")
+        return self._add(
+            label,
+            title,
+            kind="accuracy" if statement else "approximation",
+            left=sympify(left),
+            printed=None if printed is None else sympify(printed),
+            corrected=None if corrected is None else sympify(corrected),
+            domain=domain(where),
+            edit=edit,
+            reading=reading,
+            accuracy=accuracy,
+        )
+
+    def accuracy(self, label: str, title: str, **rest: Any) -> Claim:
+        """An accuracy that the source states of a form."""
+        return self.approximation(label, title, statement=True, **rest)
+
+    def inequality(self, label: str, title: str, greater: Any, lesser: Any = 0, **rest: Any) -> Claim:
+        """A statement that one side is nowhere smaller than the other: the magnitude of the difference is itself."""
+        gap = sympify(greater) - sympify(lesser)
+        return self.claim(label, title, left=Magnitude(gap), corrected=gap, statement=True, **rest)
 
     def definition(self, label: str, title: str, *, left: Any, printed: Any, reading: str = "") -> Claim:
         """A display that only introduces a symbol: nothing in it could be false."""

@@ -12,6 +12,7 @@ import sympy as sp
 from mpmath import mp, mpf
 from sympy import Expr, S, Symbol
 
+from xsec_sym.proof.magnitude import Magnitude
 from xsec_sym.proof.quadrature import NoValue
 from xsec_sym.proof.say import said
 
@@ -31,6 +32,7 @@ _FUNCTIONS: dict[Any, Callable[..., Any]] = {
         for name in ("besselj", "bessely", "besseli", "besselk", "airyai", "airybi")
     },
     sp.Abs: abs,
+    Magnitude: abs,
     sp.ceiling: mp.ceil,
     sp.Ei: mp.ei,
     sp.polygamma: mp.psi,
@@ -112,6 +114,9 @@ def _node(e: Any, slots: Slots) -> Run:
     if isinstance(e, sp.exp):
         inner = compile_mp(e.args[0], slots)
         return lambda v: mp.exp(inner(v))
+    if isinstance(e, sp.Pow) and isinstance(e.base, sp.gamma) and e.exp == -1:
+        at = compile_mp(e.base.args[0], slots)
+        return lambda v: mp.rgamma(at(v))  # 0 at the poles
     if isinstance(e, sp.Pow):
         return _power(compile_mp(e.base, slots), e.exp, slots)
     parts = [compile_mp(p, slots) for p in e.args]

@@ -47,6 +47,7 @@ from sympy import (
     factorint,
     gamma,
     hyper,
+    legendre,
     log,
     oo,
     pi,
@@ -61,6 +62,7 @@ from sympy.core.function import AppliedUndef
 
 from xsec_sym.proof import bessel
 from xsec_sym.proof.atoms import Atoms, Unsettled
+from xsec_sym.proof.legendre import atomised as legendre_normal
 
 _HYPERBOLIC = (sinh, cosh, tanh, coth, csch, tan)
 
@@ -116,6 +118,8 @@ class Field(Atoms):
             return self._mirrored(e, lambda other: other)
         if isinstance(e, besseli):
             return bessel.atomised(self, e)
+        if isinstance(e, legendre):
+            return legendre_normal(self, e)
         if isinstance(e, hyper):
             return bessel.confluent(self, e)
         if isinstance(e, Integral):
@@ -157,6 +161,11 @@ class Field(Atoms):
             return self.atomise(self.settled(e))
         except Unsettled:
             if isinstance(e, Abs):
+                top, bottom = self.fraction(e.args[0])
+                if bottom.free_symbols:
+                    return self._switch(Abs(self._meant(top.as_expr()))) / self._switch(
+                        Abs(self._meant(bottom.as_expr()))
+                    )
                 square = self.reduced(self.atomise(e.args[0] ** 2))
                 atom = self._atom("abs", Abs(self.expression(e.args[0])), square.as_expr())
                 self.relations.setdefault(atom, (2, square.as_expr()))
@@ -220,6 +229,9 @@ class Field(Atoms):
         return constant, [*f_top, *((f, -k) for f, k in f_bottom)]
 
     def _power(self, base: Expr, exponent: Expr) -> Expr:
+        below = isinstance(base, gamma) and exponent.is_Integer and exponent < 0 and base.args[0].expand().is_integer
+        if below and self.piece.sign(base.args[0]) in ("-", "<=", "0"):
+            return S.Zero  # 1 / gamma is entire, and 0 at the poles
         if exponent.is_Integer:
             return self.atomise(base) ** exponent
         if base is S.Exp1:
@@ -297,9 +309,9 @@ class Field(Atoms):
         if part == Rational(1, 2):
             for atom, (_, square) in self.relations.items():
                 # the root of 1 - cos^2 is the sine, where that is not negative
-                if square == radicand and isinstance(self.meaning.get(atom), sin):
-                    if self.sign_of_atom(atom) in ("+", ">=", "0"):
-                        return result * atom
+                known = square == radicand and isinstance(self.meaning.get(atom), sin)
+                if known and self.sign_of_atom(atom) in ("+", ">=", "0"):
+                    return result * atom
         if part:
             root = self._atom("r", Pow(self._meant(radicand), Rational(1, part.q)), radicand, part.q)
             self.relations.setdefault(root, (part.q, radicand))
@@ -353,6 +365,9 @@ class Field(Atoms):
 
     def _gamma(self, e: Expr) -> Expr:
         """Shift the argument to one representative, so that ratios of neighbours become rational."""
+        e = e.expand()
+        if e.is_integer and self.piece.sign(e) != "+":
+            raise Unsettled(f"gamma({e}) may have a pole")
         fixed, moving = _split_exponent(e)
         if not moving:
             value = gamma(fixed)
@@ -412,21 +427,20 @@ class Field(Atoms):
             raise Unsettled("only a single sum is an atom")
         j, low, high = e.limits[0]
         if high == oo:
-            return self._series(e.function.subs(j, j + low), j)
+            return self._summed(e.function.subs(j, j + low), j, S.Zero, oo)
         if (high - low).is_Integer:
             return self.atomise(e.doit())
         fixed, moving = _split_exponent(high)
         if not moving or not fixed.is_Integer or not low.is_Integer:
             raise Unsettled(f"the limits of {e} are not integers with one moving end")
         top = high - fixed
-        hidden = Symbol(_hidden("j", e), integer=True, nonnegative=True if low >= 0 else None)
-        atom = self._atom("sum", Sum(e.function.xreplace({j: hidden}), (hidden, low, top)))
+        atom = self._summed(e.function, j, low, top)
         extra = [e.function.xreplace({j: top + i}) for i in (range(1, fixed + 1) if fixed > 0 else range(fixed + 1, 1))]
         tail = Add(*(self.atomise(t) for t in extra))
         return atom + tail if fixed > 0 else atom - tail
 
-    def _series(self, term: Expr, j: Symbol) -> Expr:
-        """An infinite sum from 0 is an atom, but for factors that do not depend on the index."""
+    def _summed(self, term: Expr, j: Symbol, low: Expr, high: Expr) -> Expr:
+        """A sum is an atom, but for factors that do not depend on the index."""
         top, bottom = self.fraction(term)
         if top.is_zero:
             return S.Zero
@@ -440,8 +454,9 @@ class Field(Atoms):
                     kept *= f.as_expr() ** (side * k)
                 else:
                     fixed *= f.as_expr() ** (side * k)
-        hidden = Symbol(_hidden("j", Sum(term, (j, 0, oo))), integer=True, nonnegative=True)
-        return fixed * self._atom("sum", Sum(self._meant(kept).xreplace({j: hidden}), (hidden, 0, oo)))
+        name = _hidden("j", Sum(term, (j, low, high)))
+        hidden = Symbol(name, integer=True, nonnegative=True if low >= 0 else None)
+        return fixed * self._atom("sum", Sum(self._meant(kept).xreplace({j: hidden}), (hidden, low, high)))
 
 
 def _hidden(letter: str, e: Expr) -> str:

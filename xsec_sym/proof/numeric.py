@@ -8,12 +8,13 @@ from functools import lru_cache
 from typing import Any
 
 from mpmath import workdps
-from sympy import Add, Expr, Integral, Symbol, Wild, cos, lambdify, oo, preorder_traversal, sympify
+from sympy import Abs, Add, Expr, Integral, Sum, Symbol, Wild, cos, lambdify, oo, preorder_traversal, sympify
 
 from xsec_sym.proof.balls import NoEnclosure, NotReal, enclose
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.digits import NoValue, value
 from xsec_sym.proof.domain import Domain
+from xsec_sym.proof.magnitude import Magnitude
 from xsec_sym.proof.rules import unfolded
 from xsec_sym.proof.witnesses import Point
 from xsec_sym.proof.zeros import Undecided
@@ -199,14 +200,14 @@ def digits_of(claim: Claim, e: Expr, point: Point, digits: int) -> Any:
     found: dict[Expr, Symbol] = {}
     walk = preorder_traversal(here)
     for node in walk:
-        if isinstance(node, Integral):
+        if isinstance(node, Integral) or (isinstance(node, Sum) and node.has(Integral)):
             walk.skip()
             found.setdefault(node, Symbol(f"I{len(found)}"))
     if not found:
         return value(here, digits)
     values = [_integral_value(node, digits + 2, cuts) for node in found]
     with workdps(digits + 10):
-        return lambdify(list(found.values()), here.xreplace(found), "mpmath")(*values)
+        return lambdify(list(found.values()), here.xreplace(found).replace(Magnitude, Abs), "mpmath")(*values)
 
 
 def rejected_by_digits(claim: Claim, rivals: list[Expr], point: Point, wanted: int) -> int:

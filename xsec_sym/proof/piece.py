@@ -18,6 +18,7 @@ from sympy import (
     Expr,
     Ge,
     Gt,
+    Integral,
     Le,
     Lt,
     Max,
@@ -30,6 +31,8 @@ from sympy import (
     Rational,
     S,
     Symbol,
+    besseli,
+    exp,
     oo,
     pi,
     sympify,
@@ -226,6 +229,21 @@ class Piece:
                 return "+" if "+" in above else ">="
         if isinstance(expression, Piecewise):
             return self._sign_of_branches(expression)
+        if expression.is_Add and len(expression.args) == 2:
+            powers = _difference_of_exponentials(*expression.args)
+            if powers is not None and self.sign(powers[0] - powers[1]) is not None:
+                return self.sign(powers[0] - powers[1])  # the exponential is increasing
+        if isinstance(expression, besseli) and expression.args[0].is_integer:
+            known = self.field.sign_of_bessel(*expression.args)  # before it is written by its neighbours
+            if known is not None:
+                return known
+        if isinstance(expression, Integral) and len(expression.limits) == 1 and len(expression.limits[0]) == 3:
+            # by the name that its variable has here, under which facts about the integrand may be noted
+            x, low, high = expression.limits[0]
+            if self.sign(high - low) in ("+", ">=", "0"):
+                here = self.inside(x, low, high).sign(expression.function)
+                if here in ("+", ">="):
+                    return ">="
         try:
             numerator, denominator = self.field.fraction(expression)
         except Unsettled:
@@ -457,6 +475,17 @@ def _both_sides(condition: Expr) -> list[tuple[Expr, Expr]]:
     if isinstance(condition, Gt | Ge):
         return [(condition.lhs, condition.rhs)]
     return [(condition.rhs, condition.lhs)] if isinstance(condition, Lt | Le) else []
+
+
+def _difference_of_exponentials(first: Expr, second: Expr) -> tuple[Expr, Expr] | None:
+    """(a, b) where the two terms are exp(a) and -exp(b), 1 being exp(0)."""
+    exponents: dict[int, Expr] = {}
+    for term in (first, second):
+        side, rest = term.as_coeff_Mul()
+        if side not in (1, -1) or not (rest == 1 or isinstance(rest, exp)):
+            return None
+        exponents[int(side)] = S.Zero if rest == 1 else rest.args[0]
+    return (exponents[1], exponents[-1]) if len(exponents) == 2 else None
 
 
 def _constant_sign(expression: Expr) -> Sign:

@@ -42,6 +42,7 @@ from sympy import (
     factorial,
     gamma,
     hyper,
+    legendre,
     log,
     oo,
     preorder_traversal,
@@ -54,6 +55,7 @@ from sympy.logic.boolalg import Boolean
 
 from xsec_sym.proof.domain import Choices, Domain, Integers, Interval
 from xsec_sym.proof.field import Unsettled
+from xsec_sym.proof.magnitude import Magnitude
 from xsec_sym.proof.piece import Piece, plus
 from xsec_sym.proof.say import said
 
@@ -150,18 +152,20 @@ def fact(
     inner: list[Any] | None = None,
     proven: Proven | None = None,
     mapping: dict[Symbol, Expr] | None = None,
+    back: bool = False,
 ) -> list[Goal]:
     """expression is the sum of terms whose signs show and agree; so its own sign is known from here on.
 
     ``inner`` = (x, low, high): a fact about an integrand, between the limits of that integral only. Where a lemma is
-    named, each term shows its sign once the lemma's left side is read as its right side.
+    named, each term shows its sign once the lemma's left side is read as its right side, or ``back``: where a lemma
+    says |X| = X, the X of a term is then seen not to be negative.
     """
     piece = goal.piece.inside(*inner) if inner else goal.piece
     demand(piece.is_zero(expression - Add(*terms)), lambda: f"{expression} is not shown to be the sum of {terms}")
     here: Any = "0"
     for term in terms:
-        if proven is not None:
-            (shown,) = lemma(Goal(term, goal.right, piece), proven, mapping or {})
+        if proven is not None and occurs(_replaced(proven, mapping or {}, back), term):
+            (shown,) = lemma(Goal(term, goal.right, piece), proven, mapping or {}, back)
             term = shown.left
         here = plus(here, piece.sign(term))
     demand(here in ("+", "-", ">=", "<="), lambda: f"the signs of {terms} do not show, or differ")
@@ -295,7 +299,14 @@ def contexts(goal: Goal, part: Expr) -> list[Piece]:
             return
         if not occurs(part, e):
             return
-        demand(not isinstance(e, Sum), lambda: f"{part} stands inside a sum, where nothing is known of the index")
+        if isinstance(e, Sum):
+            natural = all(j.is_integer and j.is_nonnegative and a.is_nonnegative for j, a, _ in e.limits)
+            apart = not any(piece.facts_about(j) for j, *_ in e.limits)
+            demand(natural and apart, lambda: f"{part} stands in a sum whose index is not known to be natural")
+            fixed = not any(occurs(part, end) for _, *ends in e.limits for end in ends)
+            demand(fixed, "a limit of a sum stays as it is")
+            visit(e.function, piece)
+            return
         if isinstance(e, Integral):
             for x, low, high in reversed(e.limits):
                 visit(low, piece)
@@ -340,6 +351,55 @@ def connected(piece: Piece, x: Symbol) -> None:
     for e, _ in piece.facts:
         if e.has(x):
             demand(diff(e, x, 2) == 0, lambda: f"the condition {e} > 0 may cut the range of {x} into several pieces")
+
+
+# --- inequalities: X >= 0 is the equation |X| = X -------------------------------------------------------
+
+
+def _replaced(proven: Proven, mapping: dict[Symbol, Expr], back: bool) -> Expr:
+    index = {v.symbol: v.member(v.index) for v in proven.domain.variables if isinstance(v, Integers)}
+    return (proven.form if back else proven.left).subs({**index, **mapping}, simultaneous=True)
+
+
+def induct(
+    goal: Goal,
+    index: Symbol,
+    factor: Expr,
+    terms: list[Expr],
+    proven: Proven | None = None,
+    mapping: dict[Symbol, Expr] | None = None,
+) -> list[Goal]:
+    """X(0) >= 0, and X(n + 1) is a factor that is not negative times X(n), plus terms that show they are not negative.
+
+    A lemma |Y| = Y may show it of a Y in them.
+    """
+    x = goal.right
+    demand(goal.left == Magnitude(x), lambda: f"{goal.left} = {x} does not say that {x} is not negative")
+    demand(bool(index.is_integer and index.is_nonnegative), lambda: f"{index} does not run over 0, 1, 2, ...")
+    demand(not goal.piece.facts_about(index), "what is known of the index need not hold for the next one")
+    for part in (x.subs(index, 0), factor):
+        demand(goal.piece.sign(part) in ("+", ">=", "0"), lambda: f"{part} is not shown to be at least 0")
+    added = x.subs(index, index + 1) - factor * x
+    (shown,) = fact(goal, added, terms, None, proven, mapping, back=proven is not None)
+    demand(shown.piece.facts[-1][0] == added, lambda: f"{added} is not shown to be at least 0")
+    return []
+
+
+def dominate(goal: Goal, total: Sum, first: Expr, ratio: Expr) -> list[Goal]:
+    """|sum of f_j| <= first / (1 - ratio), noted as two facts, where |f_j| <= first ratio^j and 0 <= ratio < 1."""
+    demand(
+        len(total.limits) == 1 and total.limits[0][1:] == (0, oo), lambda: f"{total} does not run from 0 without end"
+    )
+    j = total.limits[0][0]
+    demand(bool(j.is_integer and j.is_nonnegative) and not first.has(j) and not ratio.has(j), "the bound depends on j")
+    sign_of = goal.piece.sign
+    shrinks = sign_of(ratio) in ("+", ">=", "0") and sign_of(1 - ratio) == "+"
+    demand(shrinks, lambda: f"{ratio} is not shown to be in [0, 1)")
+    bound = first * ratio**j
+    for gap in (bound - total.function, bound + total.function):
+        demand(sign_of(gap) in ("+", ">=", "0"), lambda: f"{gap} is not shown to be at least 0")
+    whole = first / (1 - ratio)
+    return [replace(goal, piece=goal.piece.extended([(whole - total, False), (whole + total, False)]))]
 
 
 # --- regularity ---------------------------------------------------------------------------------------
@@ -399,6 +459,8 @@ def _critical(e: Expr, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], 
             above, below, _ = node.args
             natural = len(above) == 0 and all(b.is_integer and b.is_positive for b in below)
             demand(natural, lambda: f"{said(node)} is not known to be smooth")
+        elif isinstance(node, legendre):
+            demand(bool(node.args[0].is_integer), lambda: f"{said(node)} is not of integer degree")
         elif isinstance(node, Tuple):
             continue
         elif not isinstance(node, ENTIRE):
@@ -416,7 +478,9 @@ __all__ = [
     "contexts",
     "continuous_at",
     "demand",
+    "dominate",
     "fact",
+    "induct",
     "lemma",
     "nest",
     "occurs",

@@ -24,13 +24,14 @@ from sympy import (
     expand,
     factorial,
     hyper,
+    legendre,
     oo,
     pi,
     sin,
     sqrt,
 )
 
-from xsec_sym.proof.calculus import difference, iterated, parts
+from xsec_sym.proof.calculus import bounded, difference, iterated, parts
 from xsec_sym.proof.piece import Piece, times
 from xsec_sym.proof.rules import Goal, Proven, contexts, demand, lemma, occurs, smooth
 
@@ -74,6 +75,42 @@ def _keeps_sign(e: Expr, piece: Piece) -> bool:
         clamped = isinstance(factor, Max) and S.Zero in factor.args
         total = times(total, ">=" if clamped else piece.sign(factor))
     return total is not None
+
+
+def funk_hecke(goal: Goal, integral: Integral, u: Expr, index: Symbol) -> list[Goal]:
+    """A function of the inclination, averaged with the clamped cosine towards u, as a Legendre series.
+
+    For bounded D, the integral of D(x) max(0, c) over azimuth and inclination, c being the cosine towards u, is the sum
+    of pi (2 l + 1) P_l(u) times the moments of D and of the clamped cosine with P_l; it converges absolutely.
+    """
+    outside, rest, x, low, high, outer, inner = iterated(goal, integral)
+    azimuth, *ends = rest.limits[0]
+    demand((low, high) == (-1, 1) and tuple(ends) == CIRCLE, "the integral is not over the sphere")
+    demand(not u.has(x, azimuth) and not goal.left.has(index), lambda: f"{azimuth} or {index} is used twice")
+    demand(bool(index.is_integer and index.is_nonnegative), lambda: f"{index} does not run over 0, 1, 2, ...")
+    demand(outer.sign(1 - u**2) in ("+", ">=", "0"), lambda: f"{u} is not shown to be a cosine")
+    kernel = rest.function.xreplace({u * x + sqrt(1 - u**2) * sqrt(1 - x**2) * cos(azimuth): azimuth})
+    facing = kernel.free_symbols <= {azimuth} and not kernel.has(cos)
+    demand(facing, lambda: f"{rest.function} depends on more than the cosine towards {u}")
+    clamped = isinstance(kernel, Max) and set(kernel.args) == {S.Zero, azimuth}
+    demand(clamped, lambda: f"{rest.function} is not the clamped cosine")
+    demand(bounded(outside, x, inner), lambda: f"{outside} is not shown to be bounded")
+    wave = legendre(index, x, evaluate=False)
+    moments = [Integral(f * wave, (x, -1, 1)) for f in (outside, Max(0, x))]
+    term = pi * (2 * index + 1) * Mul(*moments) * legendre(index, u, evaluate=False)
+    return [goal.with_left(goal.left.xreplace({integral: Sum(term, (index, 0, oo))}))]
+
+
+def parities(goal: Goal, total: Sum) -> list[Goal]:
+    """An infinite sum of terms that have one sign or fall off absolutely, as its even and its odd terms.
+
+    Where the whole converges and one half of it does, so does the other; the halves are taken in their own order.
+    """
+    demand(occurs(total, goal.left) and len(total.limits) == 1, lambda: f"{total} does not occur")
+    j, low, high = total.limits[0]
+    demand(low == 0 and high == oo, "the sum does not run from 0 without end")
+    even, odd = (Sum(total.function.subs(j, 2 * j + i), (j, 0, oo)) for i in (0, 1))
+    return [goal.with_left(goal.left.xreplace({total: even + odd}))]
 
 
 def bessel(goal: Goal, integral: Integral, order: Expr, argument: Expr, factor: Expr) -> list[Goal]:
@@ -237,13 +274,16 @@ def _entire(e: Expr, z: Symbol) -> bool:
     return isinstance(e, Add | Mul | exp) and all(_entire(part, z) for part in e.args)
 
 
-def peel(goal: Goal, total: Sum) -> list[Goal]:
-    """An infinite sum as its first term and the sum of the others, counted from 0 again."""
+def peel(goal: Goal, total: Sum, count: Expr = S.One) -> list[Goal]:
+    """An infinite sum as its first terms, ``count`` of them, and the sum of the others, counted from 0 again."""
     demand(occurs(total, goal.left) and len(total.limits) == 1, lambda: f"{total} does not occur")
     j, low, high = total.limits[0]
     demand(low == 0 and high == oo, "the sum does not run from 0 without end")
-    rest = Sum(total.function.subs(j, j + 1), (j, 0, oo))
-    return [goal.with_left(goal.left.xreplace({total: total.function.subs(j, 0) + rest}))]
+    natural = bool(count.is_integer and count.is_nonnegative) and not count.has(j)
+    demand(natural, lambda: f"{count} is not a number of terms")
+    rest = Sum(total.function.subs(j, j + count), (j, 0, oo))
+    first = total.function.subs(j, 0) if count == 1 else Sum(total.function, (j, 0, count - 1))
+    return [goal.with_left(goal.left.xreplace({total: first + rest}))]
 
 
-__all__ = ["beats", "bessel", "harmonics", "peel", "shear", "taylor", "turn", "wave"]
+__all__ = ["beats", "bessel", "funk_hecke", "harmonics", "parities", "peel", "shear", "taylor", "turn", "wave"]

@@ -104,8 +104,11 @@ class Step:
         return self._move("vacuous", "no point of the domain lies here")
 
     def fact(self, expression: Any, *terms: Any, inside: tuple[Any, ...] = (), by: Claim | str | None = None,
-             mapping: Mapping[Any, Any] | None = None) -> Step:  # fmt: skip
-        """Note a sign, shown by equal terms whose signs agree; without terms, the expression shows it itself."""
+             mapping: Mapping[Any, Any] | None = None, back: bool = False) -> Step:  # fmt: skip
+        """Note a sign, shown by equal terms whose signs agree; without terms, the expression shows it itself.
+
+        ``by`` names a lemma that shows the sign of each term; a lemma |Y| = Y is read ``back``.
+        """
         chosen = terms or (expression,)
         said = f"the sign of {expression} is that of {' + '.join(f'({t})' for t in chosen)}"
         data = {"expression": sympify(expression), "terms": [sympify(t) for t in chosen],
@@ -113,6 +116,7 @@ class Step:
         if by is not None:
             data |= {"proven": by if isinstance(by, str) else by.id,
                      "mapping": {sympify(k): sympify(v) for k, v in (mapping or {}).items()}}  # fmt: skip
+            data |= {"back": True} if back else {}
         return self._move("fact", said, **data)
 
     def unfold(self, only: str = "") -> Step:
@@ -147,6 +151,19 @@ class Step:
         listed = [sympify(c) for c in coefficients]
         said = f"the difference solves a linear equation of order {len(listed) - 1} in {x} and starts from 0 at {at}"
         return self._move("ode", said, x=x, coefficients=listed, at=sympify(at))
+
+    def induct(self, index: Symbol, factor: Any, *terms: Any, by: Claim | str | None = None,
+               mapping: Mapping[Any, Any] | None = None) -> Step:  # fmt: skip
+        """Close a goal |X| = X by induction: X(n + 1) = factor X(n) + terms; ``by`` names a lemma |Y| = Y."""
+        data: dict[str, Any] = {"index": index, "factor": sympify(factor), "terms": [sympify(t) for t in terms]}
+        if by is not None:
+            data |= {"proven": by if isinstance(by, str) else by.id,
+                     "mapping": {sympify(k): sympify(v) for k, v in (mapping or {}).items()}}  # fmt: skip
+        return self._move("induct", f"by induction on {index}", **data)
+
+    def dominate(self, first: Any, ratio: Any, total: Sum) -> Step:
+        said = f"the terms are at most {first} times the powers of {ratio}"
+        return self._move("dominate", said, total=total, first=sympify(first), ratio=sympify(ratio))
 
     def split(self, *points: Any, integral: Integral | int | None = None) -> Step:
         chosen = self._integral(integral)
@@ -217,6 +234,14 @@ class Step:
         shape = {} if seen is None else {"seen": seen, "form": sympify(form)}
         return self._move("turn", said, integral=self._integral(integral), u=sympify(u), **shape)
 
+    def funk_hecke(self, u: Any, index: Symbol, integral: Integral | int | None = None) -> Step:
+        said = "the moments with each Legendre polynomial multiply (Funk and Hecke)"
+        return self._move("funk_hecke", said, integral=self._integral(integral), u=sympify(u), index=index)
+
+    def parities(self, total: Sum | None = None) -> Step:
+        chosen = total or next(iter(sorted(self.left.atoms(Sum), key=str)))
+        return self._move("parities", "even and odd terms apart", total=chosen)
+
     def bessel(self, order: Any, argument: Any, factor: Any = 1, integral: Integral | int | None = None) -> Step:
         said = f"the integral over the angle is a Bessel function of order {order} at {argument}"
         return self._move("bessel", said, integral=self._integral(integral), order=sympify(order),
@@ -247,11 +272,11 @@ class Step:
                           inner_map=sympify(inner_map), z=z, index=index, family=sympify(family),
                           moment=sympify(moment))  # fmt: skip
 
-    def peel(self, total: Sum | None = None) -> Step:
+    def peel(self, count: Any = 1, total: Sum | None = None) -> Step:
         chosen = total or next(iter(sorted(self.left.atoms(Sum), key=str)), None)
         if chosen is None:
             raise Refused(f"no sum is left in {self.left}")
-        return self._move("peel", "take the first term out of the sum", total=chosen)
+        return self._move("peel", f"take the first {count} of the sum's terms out", total=chosen, count=sympify(count))
 
     def close(self) -> Step:
         return self._move("close", "both sides are the same polynomial in the same atoms")

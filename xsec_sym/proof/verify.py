@@ -9,6 +9,7 @@ from typing import Any
 
 from sympy import Expr, Symbol
 
+from xsec_sym.proof.approximate import judged
 from xsec_sym.proof.checker import Certificate, lemmas, replay
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.domain import Interval
@@ -72,6 +73,8 @@ def _verify(
 ) -> Verdict:
     if claim.kind in ("definition", "out-of-scope"):
         return Verdict(claim.kind, note=claim.reading if claim.kind == "out-of-scope" else "")
+    if claim.accuracy is not None:
+        return judged(claim, claims, recorded if count < WITNESSES else None)
     certificate, steps, refusal = _proof(claim, claims, recorded)
     if is_infinite(claim.form):
         return _divergence(claim, certificate, steps, refusal, seed)

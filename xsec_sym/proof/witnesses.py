@@ -7,10 +7,25 @@ from itertools import product
 from random import Random
 from typing import Any
 
-from sympy import Abs, Expr, Heaviside, Integral, Max, Min, Piecewise, Rational, oo, preorder_traversal, sign, sympify
+from sympy import (
+    Abs,
+    Expr,
+    Heaviside,
+    Integral,
+    Max,
+    Min,
+    Piecewise,
+    Rational,
+    Sum,
+    oo,
+    preorder_traversal,
+    sign,
+    sympify,
+)
 from sympy.core.relational import Relational
 
 from xsec_sym.proof.domain import Choices, Domain, EmptyDomain, Integers, Interval
+from xsec_sym.proof.magnitude import Magnitude
 
 Point = dict[Any, Expr]
 # Exact values on which the joins of this field lie: poles, the equator, and Pythagorean pairs for u^2 + v^2 = 1.
@@ -78,7 +93,7 @@ def switches(sides: Iterable[Expr]) -> list[Expr]:
     found: dict[Expr, None] = {}
     for side in sides:
         for node in preorder_traversal(sympify(side)):
-            if isinstance(node, Abs | Heaviside | sign):
+            if isinstance(node, Abs | Heaviside | sign) and not isinstance(node, Magnitude):
                 found[node.args[0]] = None
             elif isinstance(node, Max | Min):
                 found[node.args[0] - node.args[1]] = None
@@ -86,7 +101,7 @@ def switches(sides: Iterable[Expr]) -> list[Expr]:
                 for _, condition in node.args:
                     for relation in condition.atoms(Relational):
                         found[relation.lhs - relation.rhs] = None
-    return [edge for edge in found if not edge.has(Integral)]  # whose zeros would be too dear to find
+    return [edge for edge in found if not edge.has(Integral, Sum)]  # whose zeros would be too dear to find
 
 
 def _random_point(domain: Domain, random: Random) -> Point:

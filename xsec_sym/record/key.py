@@ -73,7 +73,8 @@ def statement(claim: Claim) -> str:
     from xsec_sym.record.entry import encoded
 
     sides = [encoded(e) or repr(e) for e in (claim.left, claim.printed, claim.corrected)]
-    return json.dumps([claim.id, claim.kind, sides, claim.domain.text(), list(claim.parts)])
+    stated = repr(claim.accuracy) if claim.accuracy else ""
+    return json.dumps([claim.id, claim.kind, sides, claim.domain.text(), list(claim.parts), *([stated] * bool(stated))])
 
 
 @cache

@@ -146,6 +146,8 @@ def judged(outcome: Outcome) -> Verdict:
 
 def carries(word: str, certificate: Mapping[str, Any] | None) -> bool:
     """Whether a claim may serve as a lemma: its form is proved, whatever became of the print."""
+    if certificate is not None and "accuracy" in certificate:
+        return False  # it is near, and no identity
     return word == "proved" or (word in ("misprint", "claim-holds") and certificate is not None)
 
 
@@ -183,10 +185,15 @@ def rest_on_lemmas(earned: Mapping[str, Verdict], ledger: Ledger, current: Calla
                 ring = [other for other in sorted(below(name)) if name in below(other) and other != name]
                 told[name] = f"its proof leans on itself{' through ' + ', '.join(ring) if ring else ''}"
             else:
-                told[name] = next((why for lemma in leans(name) if (why := fault(lemma))), "")
+                told[name] = next((why for lemma in leans(name) if (why := fault(lemma, near(name)))), "")
         return told[name]
 
-    def fault(lemma: str) -> str:
+    def near(name: str) -> bool:
+        """Whether the claim is one of accuracy, which may lean on another of its kind."""
+        certificate = earned[name].certificate if name in earned else ledger.certificate(name)
+        return certificate is not None and "accuracy" in certificate
+
+    def fault(lemma: str, approximate: bool = False) -> str:
         if lemma in earned:
             word, certificate = earned[lemma].verdict, earned[lemma].certificate
         elif lemma not in ledger:
@@ -195,7 +202,7 @@ def rest_on_lemmas(earned: Mapping[str, Verdict], ledger: Ledger, current: Calla
             return f"it leans on {lemma}, which has changed since it was recorded: verify that one too"
         else:
             word, certificate = ledger[lemma].verdict, ledger.certificate(lemma)
-        if not carries(word, certificate):
+        if not carries(word, certificate) and not (approximate and near(lemma) and word == "claim-holds"):
             return f"it leans on {lemma}, which is {word}"
         return f"it leans on {lemma}, which does not stand" if weakness(lemma) else ""
 
