@@ -181,7 +181,8 @@ paper.claim(
     where=[ANY, PLAUSIBLE],
     reading="2F1 without its upper parameters means nothing and is read as 0F1~ (the same as 0F1 for b = 2), so that "
     "the 2 must be a factor; u_i is u. The left side is the term in u^3 of "
-    "erf^-1(4 (sigma_even - sigma_2) / ((2 coth(kappa) - m^2) u))",
+    "erf^-1(4 (sigma_even - sigma_2) / ((2 coth(kappa) - m^2) u)). Measured at m = 0.299, the error of (41) is 9.2e-5 "
+    "with this A, 8.9e-3 without the factor 2, 1.0e-3 with 0F1 not regularised, and 1.0e-3 without any A",
 )
 
 paper.claim(

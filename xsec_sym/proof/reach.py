@@ -143,6 +143,8 @@ def searched(claim: Claim, spec: Accuracy, claims: Mapping[str, Claim]) -> Found
         raise Unbounded("no point was found that breaks the tolerance")
     size = error.at(worst)
     words = [part.because for part in (spec.tail, spec.limit) if part] + [chart.even] * bool(chart.even)
+    if chart.removable is not None:
+        words.append(f"at {chart.y} = {chart.removable:g} the poles of the form's parts cancel, since it is bounded there")
     first = float(spec.start)
     evidence = {
         "within": decimal(spec.within),
