@@ -318,8 +318,8 @@ paper.accuracy(
     printed=twelve,
     where=[ANY, interval(m, Rational(3, 10), 1)],
     reading=READING + "; 12 terms are l = 0 ... 11, of which 7 are not 0; the tolerance is that of the other forms, as "
-    "the paper states none. Measured: (41) is the nearer one for m < 0.29 and this for m > 0.36; 12 terms "
-    "that are not 0 would be within 1.4e-7 at m = 0.3",
+    "the paper states none. Measured, not bounded: (41) is nearer below m = 0.34 or so and this form above, (44) nowhere; "
+    "its error falls to 1e-4 near m = 0.36; with 12 terms that are not 0 it would be 1.4e-7 at m = 0.3",
     accuracy=Accuracy(
         within=Rational(1, 1000),
         chart=Chart(w, q, w, sqrt(2 / q), 2 / m**2, (Integer(0), Integer(1)),

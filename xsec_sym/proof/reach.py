@@ -144,7 +144,9 @@ def searched(claim: Claim, spec: Accuracy, claims: Mapping[str, Claim]) -> Found
     size = error.at(worst)
     words = [part.because for part in (spec.tail, spec.limit) if part] + [chart.even] * bool(chart.even)
     if chart.removable is not None:
-        words.append(f"at {chart.y} = {chart.removable:g} the poles of the form's parts cancel, since it is bounded there")
+        words.append(
+            f"at {chart.y} = {chart.removable:g} the poles of the parts cancel, since the form is bounded there"
+        )
     first = float(spec.start)
     evidence = {
         "within": decimal(spec.within),
