@@ -24,6 +24,7 @@ from sympy import (
     gamma,
     hyper,
     legendre,
+    oo,
     pi,
     sqrt,
     symbols,
@@ -304,7 +305,7 @@ paper.accuracy(
     "(44) is within 0.001 for m > 1",
     left=sigma,
     printed=three,
-    where=[ANY, interval(m, 1, 10**6, open=True)],
+    where=[ANY, interval(m, 1, oo, open=True)],
     reading=READING,
     accuracy=isotropic,
 )
@@ -318,8 +319,8 @@ paper.accuracy(
     printed=twelve,
     where=[ANY, interval(m, Rational(3, 10), 1)],
     reading=READING + "; 12 terms are l = 0 ... 11, of which 7 are not 0; the tolerance is that of the other forms, as "
-    "the paper states none. Measured, not bounded: (41) is nearer below m = 0.34 or so and this form above, (44) nowhere; "
-    "its error falls to 1e-4 near m = 0.36; with 12 terms that are not 0 it would be 1.4e-7 at m = 0.3",
+    "the paper states none. Measured, not bounded: (41) is nearer below m = 0.34 or so and this form above, (44) "
+    "nowhere; its error falls to 1e-4 near m = 0.36; with 12 terms that are not 0 it would be 1.4e-7 at m = 0.3",
     accuracy=Accuracy(
         within=Rational(1, 1000),
         chart=Chart(w, q, w, sqrt(2 / q), 2 / m**2, (Integer(0), Integer(1)),

@@ -38,7 +38,7 @@ from xsec_sym.proof.suprema import BITS, Panel, Surface, panels
 from xsec_sym.proof.tried import tried
 
 LOOSE, SHARP = 0.3, 1e-4  # how wrong an interpolant may be, per tolerance: far from the end, and next to it
-STEP = 1.2  # from one strip of the roughness range to the next
+STEP = 1.25  # from one strip of the roughness range to the next
 FIRST = 0.5  # the first strip where the range begins at y = 0
 FARTHEST = 400  # strips
 
