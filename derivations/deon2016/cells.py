@@ -111,3 +111,32 @@ def total(claim, *columns):
         step.lemma("deon2016:9", {u: x, u_n: viewer}).linear(*(part * distribution for part in parts))
         for column in columns:
             step.lemma(column, {u: viewer})
+
+
+def superpose(step, sigma, viewer, density, s2, mean, beyond, low=-1, ready=None):
+    """A cross-section by the ring lemma: its mean cosine, and its second component integrated beyond the viewer.
+
+    ``mean`` is a primitive of 2 pi x D(x), ``beyond`` one of sigma_2(t) / (t^2 (1 - t^2)); ``ready`` notes the signs
+    that they need. Seen from the equator only the second component is left.
+    """
+    constant, shape = density.as_independent(x, as_Add=False)
+    for branch in step.cases(viewer):
+        if not branch.goal.piece.facts_about(viewer):
+            branch.unfold(sigma.func.__name__).lemma("xsec:ring-lemma.zero").lemma(s2, {viewer: 0})
+            continue
+        positive = branch.goal.piece.sign(viewer) == "+"
+        distance = viewer if positive else -viewer
+        branch.unfold(sigma.func.__name__).lemma("xsec:ring-lemma", {x: x, u: viewer}).settle()
+        inner = Integral(RingSpread(x, t) * kernel, (t, distance, 1))
+        clamped = [pi * (viewer * x + distance * Abs(x)) * density] if positive or low < 0 else []
+        branch.linear(*clamped, distance * density * inner)
+        branch.exchange(next(i for i in branch.integrals if i.has(t)), by="deon2016:11", mapping={u: x, u_n: t})
+        whole = Integral(RingSpread(x, t) * density, (x, low, 1))
+        branch.rewrite(Integral(RingSpread(x, t) * shape, (x, low, 1)), whole / constant).lemma(s2, {viewer: t})
+        if ready:
+            ready(branch, distance)
+        if clamped:
+            branch.split(*([0] if low < 0 else []), integral=next(i for i in branch.integrals if not i.has(t)))
+            half = next(i for i in branch.integrals if not i.has(t))
+            branch.antiderivative(mean * (half.function / mean.diff(x)).simplify(), half)
+        branch.antiderivative(beyond / constant)

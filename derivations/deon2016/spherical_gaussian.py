@@ -311,10 +311,8 @@ def funk_and_hecke(step):
     step.lemma(even_moment, {l: l})
     over_the_half_range(step, 2 * l + 3, Integral(clamped * legendre(2 * l + 3, x), (x, -1, 1)))
     for degree in (0, 1):
-        lit = Integral(clamped * x**degree, (x, -1, 1))
-        step.split(0, integral=lit).antiderivative(
-            x ** (degree + 2) / (degree + 2), Integral(x ** (degree + 1), (x, 0, 1))
-        )
+        step.split(0, integral=Integral(clamped * x**degree, (x, -1, 1)))
+        step.antiderivative(x ** (degree + 2) / (degree + 2), Integral(x ** (degree + 1), (x, 0, 1)))
 
 
 if __name__ == "__main__":

@@ -5,6 +5,8 @@ order turns that into a single integral. Here the lemma is proved for one ring, 
 superposition then carries it to every distribution.
 """
 
+from itertools import pairwise
+
 from sympy import Abs, Function, Integral, acos, exp, pi, sqrt, symbols
 
 from xsec_sym.exact import RingCrossSection, RingSpread, RingTilt
@@ -163,25 +165,27 @@ def stretched_to_unit_width(step):
     over_the_band(step, lambda branch: branch.substitute(y, tau * y, -1, 1))
 
 
-def over_the_band(step, across):
-    """Cut an integral of the second component at the edges of the band, which shrinks to nothing at u = 1 and -1."""
-    step.lemma("deon2016:11", AT)
-    for above in step.cases(1 - u, u, 1, -1):
-        if not shut(above):
-            for branch in above.cases(1 + u, u, -1):
-                if not shut(branch):
-                    branch.fact(1 - u**2, (1 - u) * (1 + u))
-                    for low, high in ((-1, -tau), (-tau, tau), (tau, 1)):
-                        branch.fact(1 - u**2 - x**2, (tau - x) * (tau + x), inside=(x, low, high))
-                    branch.split(-tau, tau)
+def over_the_band(step, across, low=-1, viewer=u):
+    """Cut an integral of the second component at the edges of the band, which shrinks to nothing at the poles."""
+    edge = sqrt(1 - viewer**2)
+    ends = (-1, -edge, edge, 1) if low == -1 else (low, edge, 1)
+    step.lemma("deon2016:11", {u: x, u_n: viewer})
+    for above in step.cases(1 - viewer, viewer, 1, -1):
+        if not shut(above, viewer):
+            for branch in above.cases(1 + viewer, viewer, -1):
+                if not shut(branch, viewer):
+                    branch.fact(1 - viewer**2, (1 - viewer) * (1 + viewer))
+                    for here, there in pairwise(ends):
+                        branch.fact(1 - viewer**2 - x**2, (edge - x) * (edge + x), inside=(x, here, there))
+                    branch.split(*ends[1:-1])
                     across(branch)
 
 
-def shut(step):
+def shut(step, viewer):
     """Whether a branch is done with: no point of the domain lies there, or the band has no width."""
     if step.is_empty:
         step.vacuous()
-    elif not step.goal.piece.facts_about(u):
+    elif not step.goal.piece.facts_about(viewer):
         step.split()
     else:
         return False

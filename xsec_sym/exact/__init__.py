@@ -14,10 +14,14 @@ from xsec_sym.exact.distributions import (
     ggx,
     spherical_gaussian,
 )
+from xsec_sym.exact.normals import NormalsBeckmann, NormalsGGX, NormalsKagiwadaKalaba
 from xsec_sym.exact.ring import AZIMUTH, RingCrossSection, RingMean, RingSpread, RingTilt, facing
 
 __all__ = [
     "AZIMUTH",
+    "NormalsBeckmann",
+    "NormalsGGX",
+    "NormalsKagiwadaKalaba",
     "RingCrossSection",
     "RingMean",
     "RingSpread",

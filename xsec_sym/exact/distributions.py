@@ -29,8 +29,8 @@ def beckmann(x: Expr, alpha: Expr) -> Expr:
 
 
 def ggx(x: Expr, alpha: Expr) -> Expr:
-    """Normals of the upper half of a spheroid: deon2016 (24) for x > 0; there are none below."""
-    return alpha**2 / (pi * x**4 * (alpha**2 + 1 / x**2 - 1) ** 2)
+    """Normals of the upper half of a spheroid, for x > 0; there are none below. deon2016 (24) with 1/x^2 cleared."""
+    return alpha**2 / (pi * (1 - (1 - alpha**2) * x**2) ** 2)
 
 
 def ellipsoidal(x: Expr, b: Expr) -> Expr:

@@ -19,9 +19,17 @@ from xsec_sym.proof.branches import settle, unfold
 from xsec_sym.proof.say import said
 from xsec_sym.proof.zeros import Undecided
 
-__all__ = ["NoEnclosure", "compile_ball", "enclose", "precision", "rational_near"]
+__all__ = ["NoEnclosure", "NotReal", "compile_ball", "enclose", "precision", "rational_near"]
 
 _MOST_BITS = 20_000
+
+
+class NotReal(NoEnclosure):
+    """The value is a complex number: its enclosure, which excludes every real one, comes with the refusal."""
+
+    def __init__(self, name: str, value: acb) -> None:
+        super().__init__(f"{name} is not real")
+        self.value = value
 
 
 def enclose(expr: Any, digits: int = 30, seconds: float | None = None) -> arb:
@@ -59,7 +67,7 @@ def _narrow(run: Closure, digits: int, name: str) -> arb:
             out = run((), False)
             if out.is_finite():
                 if not out.imag.contains(0):
-                    raise NoEnclosure(f"{name} is not real")
+                    raise NotReal(name, out)
                 size = arb(1) if out.real.contains(0) else arb(out.real.abs_lower())
                 allowed = size * arb(10) ** -digits
                 if out.real.rad() <= allowed and out.imag.abs_upper() <= allowed:

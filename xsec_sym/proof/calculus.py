@@ -36,6 +36,7 @@ from sympy import (
 )
 from sympy.core.function import AppliedUndef
 
+from xsec_sym.proof.ends import end_value, tends_to
 from xsec_sym.proof.piece import Piece, times
 from xsec_sym.proof.rules import (
     SWITCHES,
@@ -100,7 +101,7 @@ def split(goal: Goal, integral: Integral, points: list[Expr]) -> list[Goal]:
     ends = [low, *points, high]
     total = []
     for a, b in pairwise(ends):
-        demand(outer.sign(b - a) in ("+", ">=", "0"), lambda: f"the cut {b} is not shown to lie above {a}")
+        demand(outer.order(a, b) in ("+", ">=", "0"), lambda: f"the cut {b} is not shown to lie above {a}")
         body = branch(f, x, a, b, outer)
         total.append(Integral(body, (x, a, b)) if body != 0 else 0)
     return [goal.with_left(goal.left.xreplace({integral: Add(*total)}))]
@@ -185,7 +186,7 @@ def exchange(
     outside, rest, x, low, high, outer, inner = iterated(goal, integral)
     y, a, b = rest.limits[0]
     demand(not (a.has(x) or b.has(x)), "the limits depend on the other variable")
-    ordered = outer.sign(high - low), inner.sign(b - a)
+    ordered = outer.order(low, high), inner.order(a, b)
     demand(set(ordered) <= {"+", ">=", "0"}, "the limits are not shown to be in order")
     deepest = inner.inside(y, a, b)
     integrand = outside * rest.function
@@ -204,10 +205,15 @@ def substitute(goal: Goal, integral: Integral, new: Symbol, g: Expr, low: Expr, 
     f, x, a, b, outer, _ = parts(goal, integral)
     used = integral.atoms(Symbol) | outer_names(goal, integral) | goal.right.free_symbols
     demand(new not in used, lambda: f"{new} already stands for something else")
-    demand(outer.is_zero(g.subs(new, low) - a) and outer.is_zero(g.subs(new, high) - b), "the limits do not match")
-    rising = outer.sign(high - low) in ("+", ">=", "0")
+    rising = outer.order(low, high) in ("+", ">=", "0")
     inner = outer.inside(new, *((low, high) if rising else (high, low)))
     smooth(g, new, inner)
+    for near, far, side in ((low, a, "low" if rising else "high"), (high, b, "high" if rising else "low")):
+        if {near, far} & {oo, -oo}:
+            demand(outer.order(low, high) in ("+", "-"), "the new limits are not shown to be in order")
+            demand(tends_to(g, new, near, side, far, outer), lambda: f"{g} is not shown to tend to {far}")
+        else:
+            demand(outer.is_zero(g.subs(new, near) - far), "the limits do not match")
     slope = diff(g, new)
     demand(inner.sign(slope) in ("+", "-"), lambda: f"{g} is not shown to be monotone")
     body = f.xreplace({x: g}) * slope
@@ -233,12 +239,12 @@ def difference(f: Expr, primitive: Expr, x: Symbol, low: Expr, high: Expr, outer
     smooth(primitive, x, inner)
     demand(inner.is_zero(diff(primitive, x) - f), lambda: f"the derivative of {primitive} is not {f}")
     values = {"low": S.Zero, "high": S.Zero}
-    for name, end in (("low", low), ("high", high)):
+    sides = {"+": ("low", "high"), "-": ("high", "low")}.get(outer.order(low, high) or "", ("", ""))
+    for name, end, side in zip(values, (low, high), sides, strict=True):
         if name == flat:
             vanishes_at(primitive, x, end, inner, outer)
         else:
-            continuous_at(primitive, x, end, outer)
-            values[name] = primitive.subs(x, end)
+            values[name] = end_value(primitive, x, end, side, outer)
     return values["high"] - values["low"]
 
 

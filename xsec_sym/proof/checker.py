@@ -11,7 +11,7 @@ from typing import Any
 
 from sympy import Symbol
 
-from xsec_sym.proof import calculus, rules, sphere, wire
+from xsec_sym.proof import calculus, plane, rules, sphere, wire
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.field import Unsettled
 from xsec_sym.proof.rules import Goal, Refused
@@ -41,6 +41,7 @@ MOVES: dict[str, Callable[..., list[Goal]]] = {
         calculus.recurrence,
         calculus.telescope,
         calculus.diverges,
+        plane.polar,
         sphere.turn,
         sphere.funk_hecke,
         sphere.parities,

@@ -60,6 +60,11 @@ def _hoist(f: Expr, x: Symbol, found: dict[Expr, Symbol]) -> Expr:
             return sp.Mul(_hoist(still, x, found), _hoist(moving, x, found), evaluate=False)
         if isinstance(f, sp.Add) and still != 0 and len(f.args) > 2:
             return sp.Add(_hoist(still, x, found), _hoist(moving, x, found), evaluate=False)
+    if isinstance(f, sp.exp) and f.args[0].has(x):
+        # exp(-p^2 - q^2) as a product: where q is huge, p would be lost in the sum
+        still, moving = f.args[0].expand().as_independent(x, as_Add=True)
+        if still != 0:
+            return sp.Mul(_hoist(sp.exp(still), x, found), _hoist(sp.exp(moving), x, found), evaluate=False)
     return f.func(*[_hoist(p, x, found) for p in f.args], **({"evaluate": False} if isinstance(f, SWITCHES) else {}))
 
 
@@ -100,13 +105,18 @@ def _integral(e: sp.Integral, slots: Slots) -> Run:
         mids = {mpf(p) for p in [*cuts(w, a, b), *(m(v) for m in marks)] if min(a, b) < p < max(a, b)}
         nodes = [a, *sorted(mids, reverse=a > b), b]
         rule = _rule.get()
-        if settled is None or not mp.isfinite(b - a):
+        if settled is None or (mp.isinf(a) and mp.isinf(b) and len(nodes) == 2):
             return copies * _in_turn(g, list(pairwise(nodes)), rule)
         out = mpf(0)
         for p, q in pairwise(nodes):
-            w[place] = (p + q) / 2
+            finite = mp.isfinite(q - p)
+            w[place] = (p + q) / 2 if finite else q - 1 if mp.isfinite(q) else p + 1
             if (here := settled(w)) is not None:
-                out += copies * legendre(partial(_at, here, w, place), p, q, rule.goal + 4, seen, rule.stride)
+                inside = partial(_at, here, w, place)
+                if finite:
+                    out += copies * legendre(inside, p, q, rule.goal + 4, seen, rule.stride)
+                else:
+                    out += copies * tanh_sinh(inside, p, q, rule.goal + 4, rule.stride, seen)
         return out
 
     return total
@@ -117,6 +127,8 @@ def _halved(f: Expr, x: Symbol, ends: list[Expr]) -> tuple[list[Expr], int]:
     a, b = ends
     if a.is_finite and b.is_finite and not f.has(sp.Integral) and f.has(x) and f.xreplace({x: a + b - x}) == f:
         return [a, (a + b) / 2], 2
+    if (a, b) == (-sp.oo, sp.oo) and f.has(x) and f.xreplace({x: -x}) == f:
+        return [S.Zero, b], 2
     return ends, 1
 
 

@@ -171,11 +171,17 @@ class Field(Atoms):
                 self.relations.setdefault(atom, (2, square.as_expr()))
                 return atom
             if isinstance(e, Heaviside):
-                top, bottom = self.fraction(e.args[0])
-                flip = top.LC() < 0
-                argument = self._meant(((-top if flip else top).as_expr() / bottom.as_expr()).cancel())
+                constant, factors = self._factors(e.args[0])
+                if constant == 0:
+                    raise
+                flip, left = constant < 0, S.One
+                for f, k in factors:
+                    # a factor of known sign does not move the step: the step of x / 2 is that of x
+                    here = self.piece.sign_of_factors(f)
+                    flip ^= here == "-" and k % 2 == 1
+                    left *= S.One if here in ("+", "-") else f.as_expr() ** k
                 at_zero = e.args[1] if len(e.args) > 1 else Rational(1, 2)
-                atom = self._atom("step", Heaviside(argument, 1 - at_zero if flip else at_zero))
+                atom = self._atom("step", Heaviside(self._meant(left), 1 - at_zero if flip else at_zero))
                 return 1 - atom if flip else atom
             if isinstance(e, Max) and len(e.args) == 2:
                 a, b = e.args
@@ -386,6 +392,8 @@ class Field(Atoms):
         top, bottom = inner.fraction(e.function)
         if top.is_zero:
             return S.Zero
+        if bottom.total_degree():
+            top, bottom = top.cancel(bottom, include=True)  # squares of roots may have left a common factor
         moving = {a for a in top.free_symbols | bottom.free_symbols if inner.meaning.get(a, a).has(x)}
         constant, factors = bottom.factor_list()
         outside = Mul(constant, *(f.as_expr() ** k for f, k in factors if not f.free_symbols & moving))

@@ -8,9 +8,9 @@ from functools import lru_cache
 from typing import Any
 
 from mpmath import workdps
-from sympy import Abs, Add, Expr, Integral, Sum, Symbol, lambdify, oo, preorder_traversal, sympify
+from sympy import Abs, Add, Expr, Integral, Sum, Symbol, Wild, cos, lambdify, oo, preorder_traversal, sympify
 
-from xsec_sym.proof.balls import NoEnclosure, enclose
+from xsec_sym.proof.balls import NoEnclosure, NotReal, enclose
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.digits import NoValue, value
 from xsec_sym.proof.domain import Domain
@@ -50,12 +50,32 @@ def reduced(e: Expr, lemmas: Iterable[Claim]) -> Expr:
             e = e.xreplace({node: node.definition()})
     for lemma in lemmas:
         head, names = lemma.left.func, lemma.left.args
+        if head is Integral:
+            e = unfolded(e)
+            e = e.xreplace({i: value for i in e.atoms(Integral) if (value := _inner_value(i, lemma)) is not None})
+            continue
         for node in [n for n in preorder_traversal(e) if isinstance(n, head)]:
             form = lemma.form.subs(dict(zip(names, node.args, strict=True)), simultaneous=True)
             rewritten = e.xreplace({node: form})
             if rewritten.free_symbols <= e.free_symbols:  # else SymPy has folded branches out of a nested integral
                 e = distributed(rewritten)
     return distributed(e)
+
+
+def _inner_value(integral: Integral, lemma: Claim) -> Expr | None:
+    """The inner integral of a nested one, where it has the form of the lemma's left side, by the lemma."""
+    (y, *ends), *outer = integral.limits
+    model, (z, *expected) = lemma.left.function, lemma.left.limits[0]
+    if not outer or ends != expected:
+        return None
+    outside, inside = integral.function.as_independent(y, as_Add=False)
+    unknown = {s: Wild(s.name, exclude=[y]) for s in model.free_symbols - {z}}
+    waves = [wave.subs(z, y) for wave in model.atoms(cos)]
+    found = (1 / inside).expand().collect(waves).match((1 / model).subs({z: y, **unknown}))
+    if found is None:
+        return None
+    form = lemma.form.subs({s: found[w] for s, w in unknown.items()}, simultaneous=True)
+    return Integral(outside * form, *outer)
 
 
 def distributed(e: Expr) -> Expr:
@@ -100,6 +120,9 @@ def hold_against(trials: list[Trial], form: Expr, digits: int) -> Outcome:
     for trial in trials:
         try:
             right = enclose(at(form, trial.point), digits + 3, PATIENCE)
+        except NotReal as found:
+            outcome.refuted_at, outcome.refuting = trial, found.value
+            return outcome
         except UNDEFINED as reason:
             outcome.unreached.append(str(reason))
             continue

@@ -21,6 +21,7 @@ from sympy import (
     Integral,
     Le,
     Lt,
+    Max,
     Mul,
     Ne,
     Not,
@@ -147,7 +148,7 @@ class Piece:
             # the bound variable only shares its name with one that is free here: nothing known of that one holds
             apart = [fact for fact in self.facts if not fact[0].has(x)]
             return Piece(apart, [r for r in self.ranges if r.symbol != x], self.local)._between(inner, limits)
-        order = self.sign(high - low)
+        order = self.order(low, high)
         if order == "-":
             inner = Interval(x, high, low, True, True)
         elif order is None or order == "<=":
@@ -194,6 +195,16 @@ class Piece:
 
     # --- signs -------------------------------------------------------------------------------------
 
+    def order(self, low: Expr, high: Expr) -> Sign:
+        """The sign of high - low, where either may be infinite."""
+        if low == high:
+            return "0"
+        if low == -oo or high == oo:
+            return "+"
+        if low == oo or high == -oo:
+            return "-"
+        return self.sign(high - low)
+
     def sign(self, expression: Expr) -> Sign:
         expression = sympify(expression)
         if expression not in self._signs:
@@ -212,6 +223,10 @@ class Piece:
                 return product
         if not expression.free_symbols:
             return _constant_sign(expression)
+        if isinstance(expression, Max):
+            above = {self.sign(a) for a in expression.args}
+            if above & {"+", ">=", "0"}:
+                return "+" if "+" in above else ">="
         if isinstance(expression, Piecewise):
             return self._sign_of_branches(expression)
         if expression.is_Add and len(expression.args) == 2:
@@ -235,7 +250,10 @@ class Piece:
             return None
         if numerator.is_zero:
             return "0"
-        return times(self.sign_of_factors(numerator), self.sign_of_factors(denominator))
+        found = times(self.sign_of_factors(numerator), self.sign_of_factors(denominator))
+        if found is None and expression.is_Pow and expression.exp.is_Integer and expression.exp.is_even:
+            return ">="  # whatever has a normal form is real, and its even powers are not negative
+        return found
 
     def _sign_of_branches(self, e: Piecewise) -> Sign:
         """The sign that all branches share, each judged where its condition holds."""

@@ -207,10 +207,18 @@ def nest(goal: Goal, integral: Integral) -> list[Goal]:
 
 def unfolded(e: Expr, only: str = "") -> Expr:
     while True:
-        found = {node: node.definition() for node in set(_nodes(e)) if only in ("", node.func.__name__)}
+        found = {node: opened(node) for node in set(_nodes(e)) if only in ("", node.func.__name__)}
         if not found:
             return e
         e = e.xreplace(found)
+
+
+def opened(e: Expr) -> Expr:
+    """A defined object written out once, provided that its definition binds no name of its arguments."""
+    whole = e.definition()
+    bound = {s for node in whole.atoms(Integral, Sum) for s in node.bound_symbols} & e.free_symbols
+    demand(not bound, lambda: f"{bound} would be captured by {e}")
+    return whole
 
 
 def _nodes(e: Expr) -> Iterable[Expr]:
@@ -262,6 +270,8 @@ def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr], back: bool = 
     new = proven.form.subs(mapping, simultaneous=True)
     if back:
         old, new = new, old
+    elif not occurs(old, goal.left) and hasattr(old, "definition"):
+        old = opened(old)
     demand(occurs(old, goal.left), lambda: f"the side of {proven.id} that is to be replaced, {old}, does not occur")
     for piece in contexts(goal, old):
         for variable in proven.domain.variables:

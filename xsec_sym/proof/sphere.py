@@ -78,10 +78,10 @@ def _keeps_sign(e: Expr, piece: Piece) -> bool:
 
 
 def funk_hecke(goal: Goal, integral: Integral, u: Expr, index: Symbol) -> list[Goal]:
-    """A function of the inclination, averaged with a kernel in the cosine towards u, as a series of Legendre polynomials.
+    """A function of the inclination, averaged with the clamped cosine towards u, as a Legendre series.
 
-    For bounded D and g, the integral of D(x) g(c) over azimuth and inclination, c being the cosine between x and u, is
-    the sum of pi (2 l + 1) P_l(u) times the moments of D and of g with P_l; it converges absolutely.
+    For bounded D, the integral of D(x) max(0, c) over azimuth and inclination, c being the cosine towards u, is the sum
+    of pi (2 l + 1) P_l(u) times the moments of D and of the clamped cosine with P_l; it converges absolutely.
     """
     outside, rest, x, low, high, outer, inner = iterated(goal, integral)
     azimuth, *ends = rest.limits[0]
@@ -92,9 +92,8 @@ def funk_hecke(goal: Goal, integral: Integral, u: Expr, index: Symbol) -> list[G
     kernel = rest.function.xreplace({u * x + sqrt(1 - u**2) * sqrt(1 - x**2) * cos(azimuth): azimuth})
     facing = kernel.free_symbols <= {azimuth} and not kernel.has(cos)
     demand(facing, lambda: f"{rest.function} depends on more than the cosine towards {u}")
-    demand(
-        isinstance(kernel, Max) and set(kernel.args) == {S.Zero, azimuth}, "only the clamped cosine is a kernel here"
-    )
+    clamped = isinstance(kernel, Max) and set(kernel.args) == {S.Zero, azimuth}
+    demand(clamped, lambda: f"{rest.function} is not the clamped cosine")
     demand(bounded(outside, x, inner), lambda: f"{outside} is not shown to be bounded")
     wave = legendre(index, x, evaluate=False)
     moments = [Integral(f * wave, (x, -1, 1)) for f in (outside, Max(0, x))]

@@ -224,6 +224,10 @@ class Step:
         return self._move("diverges", said, integral=self._integral(integral), minorant=sympify(minorant),
                           strength=sympify(strength), order=order, end=end)  # fmt: skip
 
+    def polar(self, radius: Symbol, azimuth: Symbol, integral: Integral | int | None = None) -> Step:
+        said = f"polar coordinates, {radius} and {azimuth}, for the whole plane"
+        return self._move("polar", said, integral=self._integral(integral), radius=radius, azimuth=azimuth)
+
     def turn(self, u: Any, seen: Symbol | None = None, form: Any = None,
              integral: Integral | int | None = None) -> Step:  # fmt: skip
         said = f"turn the sphere: the direction at {u} becomes the pole"
