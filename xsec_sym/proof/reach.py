@@ -38,7 +38,7 @@ from xsec_sym.proof.suprema import BITS, Panel, Surface, panels
 from xsec_sym.proof.tried import tried
 
 LOOSE, SHARP = 0.3, 1e-4  # how wrong an interpolant may be, per tolerance: far from the end, and next to it
-STEP = 1.2  # from one strip of the roughness range to the next
+STEP = 1.25  # from one strip of the roughness range to the next
 FIRST = 0.5  # the first strip where the range begins at y = 0
 FARTHEST = 400  # strips
 
@@ -143,6 +143,10 @@ def searched(claim: Claim, spec: Accuracy, claims: Mapping[str, Claim]) -> Found
         raise Unbounded("no point was found that breaks the tolerance")
     size = error.at(worst)
     words = [part.because for part in (spec.tail, spec.limit) if part] + [chart.even] * bool(chart.even)
+    if chart.removable is not None:
+        words.append(
+            f"at {chart.y} = {chart.removable:g} the poles of the parts cancel, since the form is bounded there"
+        )
     first = float(spec.start)
     evidence = {
         "within": decimal(spec.within),
