@@ -168,19 +168,25 @@ def searched(claim: Claim, spec: Accuracy, claims: Mapping[str, Claim]) -> Found
 
 def _strips(claim: Claim, spec: Accuracy, tolerance: float, y_end: float) -> list[Strip]:
     f = surface(claim, spec.chart)
-    reach = (float(spec.chart.reach[0]), float(spec.chart.reach[1]))
     strips: list[Strip] = []
     low = float(spec.start)
     while True:
         high = low * STEP if low > 0 else FIRST
         sharp = (bool(strips) and strips[-1].peak > tolerance / 3) or low <= y_end <= high
-        made = list(panels(f, reach, (low, high), tolerance * (SHARP if sharp else LOOSE)))
-        strips.append(Strip(low, high, made, _beyond(spec, f, (low, high), tolerance * (SHARP if sharp else LOOSE))))
+        strip = _strip(spec, f, (low, high), tolerance * (SHARP if sharp else LOOSE))
+        if not sharp and strip.peak > tolerance / 2:
+            strip = _strip(spec, f, (low, high), tolerance * SHARP)
+        strips.append(strip)
         low = high
         if high > y_end and strips[-1].peak > 1.02 * tolerance:
             return strips
         if len(strips) > FARTHEST:
             raise Unbounded("the error stays below the tolerance as far as was searched")
+
+
+def _strip(spec: Accuracy, f: Surface, y: tuple[float, float], error: float) -> Strip:
+    reach = (float(spec.chart.reach[0]), float(spec.chart.reach[1]))
+    return Strip(*y, list(panels(f, reach, y, error)), _beyond(spec, f, y, error))
 
 
 def _beyond(spec: Accuracy, f: Surface, y: tuple[float, float], error: float) -> Beyond | None:
