@@ -55,14 +55,6 @@ FLAT = (
     "sqrt(2 pi kappa)"
 )
 
-ALIKE = (
-    "for m <= 0.018, with L the mean cosine: the error is u times the integral over (0, u) of the difference of two "
-    "densities, the one of sg-integral and L / 2 d erf(A - B) / du; at u = m v both are L exp(-v^2) / (sqrt(pi) m) "
-    "times 1 + d with |d| < m^2 (1 + v^2 + v^4) / 2 for v <= 5 (0.23 in place of 1/2 at the points tried, m = 0.018, "
-    "0.01 and 0.001; not enclosed); so the error is at most 9/8 u m^2 up to u = 5 m, and beyond that no larger but for "
-    "|A(-u)|"
-)
-
 # --- small roughness: tan(theta) = m v, so that everything varies with v at the same rate for all m ------
 
 v, r = symbols("v r", positive=True)
@@ -226,14 +218,14 @@ EDGE = Integer(4)
 fine = Accuracy(
     within=Rational(1, 10000),
     chart=Chart(v, r, seen, r, m, (Integer(0), EDGE), fit, ((c_1, b_1), (c_3, b_3)), EVEN),
-    start=Rational(18, 1000),
+    start=Rational(35, 100000),
     end=Rational(3, 10),
     tail=Tail(
         EDGE,
         near * erfc((b_1 * seen + b_3 * seen**3).subs(v, EDGE)) + sweep.subs(v, EDGE),
         FALLING + ", of which both terms fall, since A - B grows with u",
     ),
-    limit=Limit(Rational(18, 1000), 6 * r**3, ALIKE),
+    limit=Limit(Rational(35, 100000), flat, FLAT),
 )
 BELOW_THREE_TENTHS = [ANY, interval(m, 0, Rational(3, 10), open=True)]
 
