@@ -63,6 +63,7 @@ from sympy.core.function import AppliedUndef
 from xsec_sym.proof import bessel
 from xsec_sym.proof.atoms import Atoms, Unsettled
 from xsec_sym.proof.legendre import atomised as legendre_normal
+from xsec_sym.proof.names import captured
 
 _HYPERBOLIC = (sinh, cosh, tanh, coth, csch, tan)
 
@@ -80,6 +81,8 @@ class Field(Atoms):
     def _atomise(self, e: Expr) -> Expr:
         if e.is_Float:
             raise Unsettled(f"{e} is a float, and no proof rests on floats")
+        if e in (oo, -oo, S.ComplexInfinity, S.NaN):
+            raise Unsettled(f"{e} is not a number")
         if e is S.ImaginaryUnit or (e.is_Symbol and not e.is_real):
             raise Unsettled(f"{e} is not known to be real")
         if e.is_Rational or e.is_Symbol:
@@ -399,8 +402,9 @@ class Field(Atoms):
         outside = Mul(constant, *(f.as_expr() ** k for f, k in factors if not f.free_symbols & moving))
         inside = Mul(*(f.as_expr() ** k for f, k in factors if f.free_symbols & moving))
         hidden = Symbol(_hidden("x", e), real=True)
-        limits = (hidden, self._argument(low), self._argument(high))
-        if (len(top.terms()) > 1 and not all(_bounded(inner.meaning.get(a, a)) for a in moving)) or inside != 1:
+        limits = (hidden, *(end if end in (oo, -oo) else self._argument(end) for end in (low, high)))
+        tame = not {low, high} & {oo, -oo} and all(_bounded(inner.meaning.get(a, a)) for a in moving)
+        if (len(top.terms()) > 1 and not tame) or inside != 1:
             # term by term the integral might not exist: such an integrand stays whole, but for factors without x
             drawn, factors = top.factor_list()
             whole = Mul(*(f.as_expr() ** k for f, k in factors if f.free_symbols & moving))
@@ -426,10 +430,15 @@ class Field(Atoms):
         if len(e.limits) != 1:
             raise Unsettled("only a single sum is an atom")
         j, low, high = e.limits[0]
+        if captured([e.function], low, high) or low.has(j) or high.has(j) or {low, high} & {-oo}:
+            raise Unsettled(f"the limits of {e} share a name with its terms, or it has no beginning")
+        plain = Symbol("j#", integer=True, nonnegative=True if low.is_nonnegative else None)
+        function = e.function.subs(j, plain)  # of the index nothing else is known, whatever its name is
+        e, j = Sum(function, (plain, low, high)), plain
         if high == oo:
             return self._summed(e.function.subs(j, j + low), j, S.Zero, oo)
-        if (high - low).is_Integer:
-            return self.atomise(e.doit())
+        if (high - low).is_Integer and high - low >= -1:
+            return Add(*(self.atomise(e.function.subs(j, low + i)) for i in range(int(high - low) + 1)))
         fixed, moving = _split_exponent(high)
         if not moving or not fixed.is_Integer or not low.is_Integer:
             raise Unsettled(f"the limits of {e} are not integers with one moving end")
@@ -471,7 +480,9 @@ def _bounded(atom: Expr) -> bool:
         return bool(atom.exp.is_nonnegative) and _bounded(atom.base)
     if isinstance(atom, Add | Mul):
         return all(_bounded(a) for a in atom.args)
-    tame = Symbol, cos, sin, acos, atan, Abs, Heaviside, AppliedUndef
+    if isinstance(atom, Abs):
+        return _bounded(atom.args[0])
+    tame = Symbol, cos, sin, acos, atan, Heaviside, AppliedUndef
     return atom.is_number or isinstance(atom, tame) or hasattr(atom, "definition")
 
 

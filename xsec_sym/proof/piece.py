@@ -105,10 +105,13 @@ class Piece:
         ranges: Iterable[Interval] = (),
         local: Iterable[tuple[tuple[Any, ...], Fact]] = (),
         parent: Piece | None = None,
+        shown: Iterable[Fact] = (),
     ) -> None:
         self.facts: tuple[Fact, ...] = tuple((sympify(e), strict) for e, strict in facts)
         self.ranges = tuple(ranges)
         self.local = tuple(local)  # facts that hold between the limits of one integral only: ((x, low, high), fact)
+        # facts that follow from the others: of a name of which those say nothing, they hold whatever it stands for
+        self.shown: frozenset[Fact] = frozenset(shown) | (parent.shown if parent else frozenset())
         self.field: Field = Field(self, parent.field if parent else None)
         self.known: list[tuple[Terms, bool]] = list(parent.known) if parent else []
         self._signs: dict[Expr, Sign] = dict(parent._signs) if parent else {}
@@ -134,6 +137,11 @@ class Piece:
     def extended(self, facts: Iterable[Fact], ranges: Iterable[Interval] = ()) -> Piece:
         return Piece((*self.facts, *facts), (*self.ranges, *ranges), self.local, self)
 
+    def showing(self, facts: Iterable[Fact]) -> Piece:
+        """The piece with facts that were shown on it, not assumed."""
+        new = [fact for fact in facts if fact not in self.facts]
+        return Piece((*self.facts, *new), self.ranges, self.local, self, new)
+
     def inside(self, x: Symbol, low: Expr, high: Expr) -> Piece:
         """The piece with an integration variable strictly between its limits."""
         inner = Interval(x, sympify(low), sympify(high), True, True)
@@ -144,10 +152,14 @@ class Piece:
 
     def _between(self, inner: Interval, limits: tuple[Any, ...]) -> Piece:
         x, low, high = limits
-        if any(e.has(x) for e, _ in self.facts):
+        local = tuple((where, fact) for where, fact in self.local if not _speaks_of(x, where, fact))
+        if len(local) < len(self.local) or any(e.has(x) for e, _ in self.facts):
             # the bound variable only shares its name with one that is free here: nothing known of that one holds
             apart = [fact for fact in self.facts if not fact[0].has(x)]
-            return Piece(apart, [r for r in self.ranges if r.symbol != x], self.local)._between(inner, limits)
+            ranges = [r for r in self.ranges if r.symbol != x]
+            return Piece(apart, ranges, local, shown=self.shown & {*apart})._between(inner, limits)
+        if low.has(x) or high.has(x):
+            return self  # the limits speak of another variable of that name
         order = self.order(low, high)
         if order == "-":
             inner = Interval(x, high, low, True, True)
@@ -165,7 +177,7 @@ class Piece:
         here = [
             (tuple(a.subs(symbol, value) for a in limits), (f[0].subs(symbol, value), f[1]))
             for limits, f in self.local
-            if symbol not in limits
+            if symbol not in limits and not value.has(limits[0])
         ]
         return Piece(
             [f for f in facts if f[0].free_symbols or not f[0].is_positive],
@@ -178,7 +190,8 @@ class Piece:
         return Piece(self.facts[:index] + self.facts[index + 1 :], self.ranges, self.local)
 
     def facts_about(self, symbol: Symbol) -> bool:
-        return any(e.has(symbol) for e, _ in self.facts)
+        """Whether something is assumed of a symbol."""
+        return any(fact[0].has(symbol) for fact in self.facts if fact not in self.shown)
 
     # --- zero --------------------------------------------------------------------------------------
 
@@ -231,9 +244,9 @@ class Piece:
             return self._sign_of_branches(expression)
         if expression.is_Add and len(expression.args) == 2:
             powers = _difference_of_exponentials(*expression.args)
-            if powers is not None and self.sign(powers[0] - powers[1]) is not None:
+            if powers is not None and self._real(expression) and self.sign(powers[0] - powers[1]) is not None:
                 return self.sign(powers[0] - powers[1])  # the exponential is increasing
-        if isinstance(expression, besseli) and expression.args[0].is_integer:
+        if isinstance(expression, besseli) and expression.args[0].is_integer and self._real(expression.args[1]):
             known = self.field.sign_of_bessel(*expression.args)  # before it is written by its neighbours
             if known is not None:
                 return known
@@ -254,6 +267,14 @@ class Piece:
         if found is None and expression.is_Pow and expression.exp.is_Integer and expression.exp.is_even:
             return ">="  # whatever has a normal form is real, and its even powers are not negative
         return found
+
+    def _real(self, expression: Expr) -> bool:
+        """Whatever has a normal form is real."""
+        try:
+            self.field.fraction(expression)
+        except Unsettled:
+            return False
+        return True
 
     def _sign_of_branches(self, e: Piecewise) -> Sign:
         """The sign that all branches share, each judged where its condition holds."""
@@ -455,6 +476,12 @@ class Piece:
         if sign == "-" or (strict and sign in ("0", "<=")):
             return False
         return None
+
+
+def _speaks_of(x: Symbol, where: tuple[Any, ...], fact: Fact) -> bool:
+    """Whether a fact about an integrand over another variable says something of x, which is free in it."""
+    y, low, high = where
+    return low.has(x) or high.has(x) or (y != x and fact[0].has(x))
 
 
 def relation_facts(condition: Expr) -> list[tuple[Expr, bool]]:

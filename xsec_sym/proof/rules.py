@@ -13,9 +13,12 @@ from typing import Any, Protocol
 from sympy import (
     Abs,
     Add,
+    Derivative,
     Expr,
     Heaviside,
     Integral,
+    Lambda,
+    Limit,
     Max,
     Min,
     Mul,
@@ -23,6 +26,7 @@ from sympy import (
     NumberSymbol,
     Piecewise,
     Pow,
+    Subs,
     Sum,
     Symbol,
     Tuple,
@@ -51,11 +55,13 @@ from sympy import (
     sinh,
     tanh,
 )
+from sympy.concrete.expr_with_limits import ExprWithLimits
 from sympy.logic.boolalg import Boolean
 
 from xsec_sym.proof.domain import Choices, Domain, Integers, Interval
 from xsec_sym.proof.field import Unsettled
 from xsec_sym.proof.magnitude import Magnitude
+from xsec_sym.proof.names import captured, keeps_to, natural
 from xsec_sym.proof.piece import Piece, plus
 from xsec_sym.proof.say import said
 
@@ -74,6 +80,7 @@ class Goal:
     piece: Piece
     conditions: tuple[Boolean, ...] = ()
     doubtful: bool = False  # a sum was split into integrals that may not exist: all must be given values
+    absolute: frozenset[Sum] = frozenset()  # sums that converge absolutely, by the move that made them
 
     def with_left(self, left: Expr) -> Goal:
         # SymPy folds a Piecewise out of nested integrals together with the inner variable: that is not the same thing
@@ -116,6 +123,9 @@ def cases(goal: Goal, on: Expr, symbol: Symbol, root: Expr, slope: Expr) -> list
     below = replace(goal, piece=goal.piece.extended([(-on, True)]))
     demand(goal.piece.is_zero(on - slope * (symbol - root)), lambda: f"{on} is not a multiple of {symbol - root}")
     demand(goal.piece.sign(slope) in ("+", "-"), lambda: f"{on} may vanish elsewhere than at {symbol} = {root}")
+
+    sides = (goal.left, goal.right, *goal.conditions, *(e for e, _ in goal.piece.facts))
+    demand(not captured(sides, root), lambda: f"{root} would be captured by an integral or a sum")
 
     def at_root(e: Expr) -> Expr:
         return e.subs(symbol, root)
@@ -170,7 +180,7 @@ def fact(
         here = plus(here, piece.sign(term))
     demand(here in ("+", "-", ">=", "<="), lambda: f"the signs of {terms} do not show, or differ")
     new = (expression if here in ("+", ">=") else -expression, here in ("+", "-"))
-    piece = goal.piece.noting(tuple(inner), new) if inner else goal.piece.extended([new])
+    piece = goal.piece.noting(tuple(inner), new) if inner else goal.piece.showing([new])
     return [replace(goal, piece=piece)]
 
 
@@ -230,7 +240,20 @@ def rewrite(goal: Goal, old: Expr, new: Expr) -> list[Goal]:
     demand(occurs(old, goal.left), lambda: f"{old} does not occur")
     for piece in contexts(goal, old):
         demand(piece.is_zero(old - new), lambda: f"{old} and {new} are not shown to be equal")
+        demand(_unvalued(new, piece) <= _unvalued(old, piece), lambda: f"{new} brings in what may have no value")
     return [goal.with_left(goal.left.xreplace({old: new}))]
+
+
+def _unvalued(e: Expr, piece: Piece) -> set[Symbol]:
+    """The atoms of the integrals and sums in an expression, those that cancel in it included."""
+    found: set[Symbol] = set()
+    walk = preorder_traversal(e)
+    for node in walk:
+        if isinstance(node, Integral | Sum):
+            walk.skip()
+            atoms = piece.field.atomise(node).free_symbols
+            found |= {a for a in atoms if piece.field.meaning.get(a, a).has(Integral, Sum)}
+    return found
 
 
 def settle(goal: Goal) -> list[Goal]:
@@ -251,6 +274,7 @@ def close(goal: Goal) -> list[Goal]:
 def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr], back: bool = False) -> list[Goal]:
     """Replace the left side of an equation that holds by its right side, inside the lemma's own domain; or ``back``."""
     index = {v.symbol: v.member(v.index) for v in proven.domain.variables if isinstance(v, Integers)}
+    demand(all(isinstance(key, Symbol) for key in mapping), "only a name can be mapped")
     mapping = {**{v: k for v, k in index.items() if v not in mapping}, **mapping}
     for v in proven.domain.variables:
         if isinstance(v, Integers):
@@ -274,9 +298,11 @@ def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr], back: bool = 
         old = opened(old)
     demand(occurs(old, goal.left), lambda: f"the side of {proven.id} that is to be replaced, {old}, does not occur")
     for piece in contexts(goal, old):
+        for key, value in mapping.items():
+            demand(keeps_to(key, value, piece), lambda: f"{value} is not shown to be one of what {key} stands for")
         for variable in proven.domain.variables:
             if isinstance(variable, Choices):
-                demand(mapping[variable.symbol] in variable.values, lambda: f"{variable.text()} is not met")
+                demand(mapping.get(variable.symbol) in variable.values, lambda: f"{variable.text()} is not met")
             elif isinstance(variable, Interval):
                 for bound, strict in variable.facts():
                     here = piece.sign(bound.subs(mapping, simultaneous=True))
@@ -300,9 +326,9 @@ def contexts(goal: Goal, part: Expr) -> list[Piece]:
         if not occurs(part, e):
             return
         if isinstance(e, Sum):
-            natural = all(j.is_integer and j.is_nonnegative and a.is_nonnegative for j, a, _ in e.limits)
+            runs = all(natural(j, a) for j, a, _ in e.limits)
             apart = not any(piece.facts_about(j) for j, *_ in e.limits)
-            demand(natural and apart, lambda: f"{part} stands in a sum whose index is not known to be natural")
+            demand(runs and apart, lambda: f"{part} stands in a sum whose index is not known to be natural")
             fixed = not any(occurs(part, end) for _, *ends in e.limits for end in ends)
             demand(fixed, "a limit of a sum stays as it is")
             visit(e.function, piece)
@@ -314,6 +340,8 @@ def contexts(goal: Goal, part: Expr) -> list[Piece]:
                 piece = piece.inside(x, low, high)
             visit(e.function, piece)
             return
+        binds = isinstance(e, ExprWithLimits | Limit | Subs | Derivative | Lambda)
+        demand(not binds, lambda: f"{part} stands in {e}, of whose variable nothing is known")
         for a in e.args:
             visit(a, piece)
 
@@ -375,13 +403,13 @@ def induct(
     """
     x = goal.right
     demand(goal.left == Magnitude(x), lambda: f"{goal.left} = {x} does not say that {x} is not negative")
-    demand(bool(index.is_integer and index.is_nonnegative), lambda: f"{index} does not run over 0, 1, 2, ...")
+    demand(natural(index), lambda: f"{index} does not run over 0, 1, 2, ...")
     demand(not goal.piece.facts_about(index), "what is known of the index need not hold for the next one")
     for part in (x.subs(index, 0), factor):
         demand(goal.piece.sign(part) in ("+", ">=", "0"), lambda: f"{part} is not shown to be at least 0")
     added = x.subs(index, index + 1) - factor * x
     (shown,) = fact(goal, added, terms, None, proven, mapping, back=proven is not None)
-    demand(shown.piece.facts[-1][0] == added, lambda: f"{added} is not shown to be at least 0")
+    demand(any(e == added for e, _ in shown.piece.facts), lambda: f"{added} is not shown to be at least 0")
     return []
 
 
@@ -391,7 +419,9 @@ def dominate(goal: Goal, total: Sum, first: Expr, ratio: Expr) -> list[Goal]:
         len(total.limits) == 1 and total.limits[0][1:] == (0, oo), lambda: f"{total} does not run from 0 without end"
     )
     j = total.limits[0][0]
-    demand(bool(j.is_integer and j.is_nonnegative) and not first.has(j) and not ratio.has(j), "the bound depends on j")
+    demand(natural(j), lambda: f"{j} does not run over 0, 1, 2, ...")
+    demand(not goal.piece.facts_about(j), lambda: f"what is known of {j} is not known of the index")
+    demand(not first.has(j) and not ratio.has(j), "the bound depends on j")
     sign_of = goal.piece.sign
     shrinks = sign_of(ratio) in ("+", ">=", "0") and sign_of(1 - ratio) == "+"
     demand(shrinks, lambda: f"{ratio} is not shown to be in [0, 1)")
@@ -399,7 +429,7 @@ def dominate(goal: Goal, total: Sum, first: Expr, ratio: Expr) -> list[Goal]:
     for gap in (bound - total.function, bound + total.function):
         demand(sign_of(gap) in ("+", ">=", "0"), lambda: f"{gap} is not shown to be at least 0")
     whole = first / (1 - ratio)
-    return [replace(goal, piece=goal.piece.extended([(whole - total, False), (whole + total, False)]))]
+    return [replace(goal, piece=goal.piece.showing([(whole - total, False), (whole + total, False)]))]
 
 
 # --- regularity ---------------------------------------------------------------------------------------
@@ -409,8 +439,8 @@ def resolved(e: Expr, piece: Piece) -> Expr:
     """Every switch outside the integrands replaced by the branch that the facts select."""
     if not e.has(*SWITCHES):
         return e
-    if isinstance(e, Integral):
-        return Integral(e.function, *((x, *(resolved(end, piece) for end in ends)) for x, *ends in e.limits))
+    if isinstance(e, Integral | Sum):
+        return e.func(e.function, *((x, *(resolved(end, piece) for end in ends)) for x, *ends in e.limits))
     if isinstance(e, SWITCHES):
         try:
             return resolved(piece.field.settled(e), piece)
