@@ -114,6 +114,10 @@ class Field(Atoms):
         if isinstance(e, asin):
             return self.atomise(pi / 2 - acos(e.args[0]))
         if isinstance(e, acos):
+            z = e.args[0]
+            signs = ({*map(self.piece.sign, gaps)} for gaps in ((1 - z**2,), (1 - z, 1 + z)))
+            if not any(found <= {"+", ">=", "0"} for found in signs):
+                raise Unsettled(f"{e} may leave the range of the inverse")
             return self._mirrored(e, lambda other: self.atomise(pi) - other)
         if isinstance(e, atan | erf | sin):
             return self._mirrored(e, lambda other: -other)
@@ -133,7 +137,7 @@ class Field(Atoms):
             return self._exponential(Integer(1))
         if e.is_number and e.is_Atom:
             return self._atom("c", e)
-        if hasattr(e, "definition") or e.func.is_Function:
+        if hasattr(e, "definition") or isinstance(e, AppliedUndef):
             return self._atom("f", e.func(*(self._argument(a) for a in e.args)))
         raise Unsettled(f"{e.func.__name__} has no normal form here")
 
@@ -432,7 +436,9 @@ class Field(Atoms):
         j, low, high = e.limits[0]
         if captured([e.function], low, high) or low.has(j) or high.has(j) or {low, high} & {-oo}:
             raise Unsettled(f"the limits of {e} share a name with its terms, or it has no beginning")
-        plain = Symbol("j#", integer=True, nonnegative=True if low.is_nonnegative else None)
+        if not (high == oo or (high - low + 1).is_nonnegative):
+            raise Unsettled(f"{e} may run backwards")
+        plain = Symbol(_hidden("i", e), integer=True, nonnegative=True if low.is_nonnegative else None)
         function = e.function.subs(j, plain)  # of the index nothing else is known, whatever its name is
         e, j = Sum(function, (plain, low, high)), plain
         if high == oo:

@@ -273,13 +273,14 @@ def close(goal: Goal) -> list[Goal]:
 
 def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr], back: bool = False) -> list[Goal]:
     """Replace the left side of an equation that holds by its right side, inside the lemma's own domain; or ``back``."""
-    index = {v.symbol: v.member(v.index) for v in proven.domain.variables if isinstance(v, Integers)}
     demand(all(isinstance(key, Symbol) for key in mapping), "only a name can be mapped")
-    mapping = {**{v: k for v, k in index.items() if v not in mapping}, **mapping}
+    mapping = _filled(proven, mapping)
     for v in proven.domain.variables:
         if isinstance(v, Integers):
             demand(v.high is None, lambda: f"{v.text()} ends, so no symbolic member of it can be taken")
             count = (mapping[v.symbol] - v.low) / v.step
+            same = (mapping[v.index] - count).expand() == 0
+            demand(same, lambda: f"{v.index} counts the members of {v.text()}, so it is {count}")
             demand(bool(count.is_integer and count.is_nonnegative), lambda: f"{mapping[v.symbol]} is not in {v.text()}")
     bound = {
         limit[0]
@@ -315,6 +316,16 @@ def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr], back: bool = 
     return [goal.with_left(goal.left.xreplace({old: new}))]
 
 
+def _filled(proven: Proven, mapping: dict[Symbol, Expr]) -> dict[Symbol, Expr]:
+    """A mapping with what it leaves out: an integer variable and the index that counts its values belong together."""
+    filled = dict(mapping)
+    for v in proven.domain.variables:
+        if isinstance(v, Integers):
+            value = filled.setdefault(v.symbol, v.member(filled.get(v.index, v.index)))
+            filled.setdefault(v.index, (value - v.low) / v.step)
+    return filled
+
+
 def contexts(goal: Goal, part: Expr) -> list[Piece]:
     """The pieces in which a part of the left side stands: the goal's own, inside the integrals around it."""
     found: list[Piece] = []
@@ -329,6 +340,8 @@ def contexts(goal: Goal, part: Expr) -> list[Piece]:
             runs = all(natural(j, a) for j, a, _ in e.limits)
             apart = not any(piece.facts_about(j) for j, *_ in e.limits)
             demand(runs and apart, lambda: f"{part} stands in a sum whose index is not known to be natural")
+            onward = all(b == oo or (b - a + 1).is_nonnegative for _, a, b in e.limits)
+            demand(onward, lambda: f"{e} may run backwards")
             fixed = not any(occurs(part, end) for _, *ends in e.limits for end in ends)
             demand(fixed, "a limit of a sum stays as it is")
             visit(e.function, piece)
@@ -385,8 +398,7 @@ def connected(piece: Piece, x: Symbol) -> None:
 
 
 def _replaced(proven: Proven, mapping: dict[Symbol, Expr], back: bool) -> Expr:
-    index = {v.symbol: v.member(v.index) for v in proven.domain.variables if isinstance(v, Integers)}
-    return (proven.form if back else proven.left).subs({**index, **mapping}, simultaneous=True)
+    return (proven.form if back else proven.left).subs(_filled(proven, mapping), simultaneous=True)
 
 
 def induct(
@@ -451,16 +463,16 @@ def resolved(e: Expr, piece: Piece) -> Expr:
 
 def smooth(e: Expr, x: Symbol, piece: Piece) -> None:
     """e is analytic in x on the open piece: no root or logarithm of what may vanish, no quotient by it."""
-    _critical(e, lambda a: piece.sign(a), lambda a: a.has(x))
+    _critical(e, x, lambda a: piece.sign(a), lambda a: a.has(x))
 
 
 def continuous_at(e: Expr, x: Symbol, end: Expr, outer: Piece) -> None:
     """e is continuous up to x = end."""
     demand(end not in (oo, -oo), "an infinite end needs a change of variables first")
-    _critical(e, lambda a: outer.sign(a.subs(x, end)), lambda _: False)
+    _critical(e, x, lambda a: outer.sign(a.subs(x, end)), lambda _: False)
 
 
-def _critical(e: Expr, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], bool]) -> None:
+def _critical(e: Expr, x: Symbol, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], bool]) -> None:
     for node in preorder_traversal(e):
         allowed = ("+",) if strict(node) else ("+", ">=", "0")
         if isinstance(node, Pow) and not node.exp.is_nonnegative:
@@ -491,8 +503,8 @@ def _critical(e: Expr, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], 
             demand(natural, lambda: f"{said(node)} is not known to be smooth")
         elif isinstance(node, legendre):
             demand(bool(node.args[0].is_integer), lambda: f"{said(node)} is not of integer degree")
-        elif isinstance(node, Tuple):
-            continue
+        elif isinstance(node, Tuple) or (isinstance(node, SWITCHES) and not node.has(x)):
+            continue  # which way a switch stands that does not depend on x is of no matter
         elif not isinstance(node, ENTIRE):
             # a list of what is smooth, since a list of what is not would always miss one
             raise Refused(f"{said(node)} is not known to be smooth")

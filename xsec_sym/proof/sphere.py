@@ -204,7 +204,7 @@ def _linear(e: Expr) -> Expr:
         if isinstance(base, cos) and count.is_Integer and count > 0:
             waves += [base.args[0]] * int(count)
         else:
-            others *= _linear(part)
+            others *= part if part == spread else _linear(part)
     sums = {S.Zero: S.One}
     for angle in waves:
         found: dict[Expr, Expr] = {}
