@@ -611,3 +611,9 @@ def test_a_switch_is_settled_by_the_slope_of_what_does_not_jump():
 def test_broken_powers_of_a_cosine_have_no_beats():
     step = step_on(Integral(sqrt(cos(x)) * cos(2 * x) * cos(x), (x, 0, 1)), 0).beats()
     assert step.integrals[0].function == cos(x) ** Rational(3, 2) * cos(2 * x)
+
+
+def test_what_is_not_defined_has_no_sign_and_no_equal():
+    below = on(interval(u, -2, -1))
+    assert below.sign(Max(0, sqrt(u))) is None and below.sign(Integral(Max(0, x * sqrt(u)), (x, 0, 1))) is None
+    refused(step_on(S.NaN, S.NaN).close, match="not defined")

@@ -238,7 +238,7 @@ class Piece:
             return _constant_sign(expression)
         if isinstance(expression, Max):
             above = {self.sign(a) for a in expression.args}
-            if above & {"+", ">=", "0"}:
+            if above & {"+", ">=", "0"} and all(self._real(a) for a in expression.args):
                 return "+" if "+" in above else ">="
         if isinstance(expression, Piecewise):
             return self._sign_of_branches(expression)

@@ -48,6 +48,7 @@ from sympy import (
     hyper,
     legendre,
     log,
+    nan,
     oo,
     preorder_traversal,
     sign,
@@ -264,6 +265,7 @@ def settle(goal: Goal) -> list[Goal]:
 def close(goal: Goal) -> list[Goal]:
     left_over = goal.left.has(Integral) or goal.right.has(Integral)
     demand(not (goal.doubtful and left_over), "an integral that may not exist has been given no value")
+    demand(not goal.left.has(nan), "the left side is not defined")
     demand(
         goal.left == goal.right or goal.piece.is_zero(goal.left - goal.right),
         lambda: f"{goal.left} and {goal.right} are not shown to be equal",
