@@ -38,7 +38,7 @@ from sympy.core.function import AppliedUndef
 
 from xsec_sym.proof.ends import end_value, tends_to
 from xsec_sym.proof.names import captured, natural, plain
-from xsec_sym.proof.piece import Piece, times
+from xsec_sym.proof.piece import Piece
 from xsec_sym.proof.rules import (
     SWITCHES,
     Goal,
@@ -52,6 +52,7 @@ from xsec_sym.proof.rules import (
     resolved,
     smooth,
 )
+from xsec_sym.proof.signs import times
 
 BINDERS = (Integral, Sum)
 TAME = (Symbol, Add, Mul, sin, cos, acos, atan, exp, sinh, cosh, erf, Abs, Heaviside, AppliedUndef)
