@@ -17,6 +17,8 @@ from sympy import (
     Sum,
     Symbol,
     acos,
+    acosh,
+    atan,
     besseli,
     cos,
     exp,
@@ -33,7 +35,7 @@ from sympy import (
     sympify,
 )
 
-from xsec_sym.proof import Refused, Source, integers, interval
+from xsec_sym.proof import Refused, Source, integers, interval, parity
 from xsec_sym.proof.calculus import bounded
 from xsec_sym.proof.domain import domain
 from xsec_sym.proof.magnitude import Magnitude
@@ -562,3 +564,56 @@ def test_a_sign_noted_with_a_lemma_read_backwards():
 def test_an_arc_cosine_off_its_range_has_no_sign():
     here = on(interval(u, 2, 3))
     assert here.sign(acos(u)) is None and not here.is_zero(Abs(acos(u)) - acos(u))
+
+
+def test_sums_inside_sums_keep_their_indices_apart():
+    assert not Piece().is_zero(series(b**j * series((j - m) * a**m, m)))
+    assert Piece().is_zero(series(b**j * series((j - m) * a**m, m)) - series(b**n * series((n - l) * a**l, l), n))
+
+
+def test_a_sum_does_not_run_backwards():
+    """By the usual convention it stands for terms of negative index, of which nothing is known."""
+    backwards = Sum(Max(-j - 3, 0) * a**j, (j, 0, -5 - n))
+    assert not Piece().is_zero(backwards)
+    refused(step_on(backwards, 0).rewrite, Max(-j - 3, 0), 0, match="backwards")
+    refused(step_on(backwards, 0).telescope, 0, backwards, match="backwards")
+
+
+def test_a_member_and_its_index_belong_together():
+    """The lemma speaks of f at p = 2 n + 1, in p on the left and in n on the right."""
+    odd = parity(Symbol("p", integer=True), odd=True)
+    f, index, member = Function("f"), odd.index, odd.symbol
+    given = claim("member", f(member), f(2 * index + 1), odd)
+    false = step_on(f(2 * m + 1) + index, f(2 * index + 1) + index, claims=[given])
+    refused(lambda: false.lemma(given, {member: 2 * m + 1}).close())
+    false = step_on(f(2 * index + 1) + m, f(2 * m + 1) + m, claims=[given])
+    refused(false.lemma, given, {index: m}, match="does not occur")
+    refused(false.lemma, given, {member: 2 * index + 1, index: m}, match="counts")
+    step_on(f(2 * m + 1), f(2 * m + 1), claims=[given]).lemma(given, {index: m}).close()
+
+
+def test_functions_that_leave_the_real_line_have_no_normal_form():
+    small, large = interval(u, 0, Rational(1, 2)), interval(u, 2, 3)
+    refused(step_on(Abs(acosh(u) ** 2), acosh(u) ** 2, small).close)
+    refused(step_on(Abs(acos(u) ** 2), acos(u) ** 2, large).close)
+    assert on(interval(u, -1, 1)).is_zero(acos(u) + acos(-u) - pi)
+
+
+def test_a_switch_is_settled_by_the_slope_of_what_does_not_jump():
+    """x - atan(2) + atan(1 / (1/2 - x)) is 0 at 0 and rises, but falls by pi on the way."""
+    jumps = atan(1 / (Rational(1, 2) - x)) + x - atan(2)
+    refused(step_on(Integral(Abs(jumps), (x, 0, 1)), 0).split, match="vanish in a denominator")
+    rises = atan(x) - atan(Rational(1, 3))
+    step = step_on(Integral(Abs(rises), (x, Rational(1, 3), 1)), Integral(rises, (x, Rational(1, 3), 1)))
+    step.split().close()
+
+
+def test_broken_powers_of_a_cosine_have_no_beats():
+    step = step_on(Integral(sqrt(cos(x)) * cos(2 * x) * cos(x), (x, 0, 1)), 0).beats()
+    assert step.integrals[0].function == cos(x) ** Rational(3, 2) * cos(2 * x)
+
+
+def test_what_is_not_defined_has_no_sign_and_no_equal():
+    below = on(interval(u, -2, -1))
+    assert below.sign(Max(0, sqrt(u))) is None and below.sign(Integral(Max(0, x * sqrt(u)), (x, 0, 1))) is None
+    refused(step_on(S.NaN, S.NaN).close, match="not defined")

@@ -38,7 +38,7 @@ from sympy.core.function import AppliedUndef
 
 from xsec_sym.proof.ends import end_value, tends_to
 from xsec_sym.proof.names import captured, natural, plain
-from xsec_sym.proof.piece import Piece, times
+from xsec_sym.proof.piece import Piece
 from xsec_sym.proof.rules import (
     SWITCHES,
     Goal,
@@ -52,6 +52,7 @@ from xsec_sym.proof.rules import (
     resolved,
     smooth,
 )
+from xsec_sym.proof.signs import times
 
 BINDERS = (Integral, Sum)
 TAME = (Symbol, Add, Mul, sin, cos, acos, atan, exp, sinh, cosh, erf, Abs, Heaviside, AppliedUndef)
@@ -136,11 +137,13 @@ def branch(f: Expr, x: Symbol, a: Expr, b: Expr, outer: Piece) -> Expr:
         for node in f.atoms(*SWITCHES):
             for g in node.atoms(Expr) & set(_arguments(node)):
                 if g.has(x) and inner.sign(g) not in ("+", "-"):
+                    smooth(g, x, inner)  # or it may jump, and its slope tells nothing
                     slope = inner.sign(diff(g, x))
-                    if slope in ("+", "-") and outer.is_zero(g.subs(x, a)):
-                        learned.append((g if slope == "+" else -g, True))
-                    elif slope in ("+", "-") and outer.is_zero(g.subs(x, b)):
-                        learned.append((-g if slope == "+" else g, True))
+                    for end, rises in ((a, "+"), (b, "-")):
+                        if slope in ("+", "-") and outer.is_zero(g.subs(x, end)):
+                            continuous_at(g, x, end, outer)
+                            learned.append((g if slope == rises else -g, True))
+                            break
         if not learned:
             raise
         return resolved(f, inner.extended(learned))
@@ -315,6 +318,7 @@ def telescope(goal: Goal, total: Sum, primitive: Expr) -> list[Goal]:
     demand(occurs(total, goal.left), lambda: f"{total} does not occur")
     demand(len(total.limits) == 1, lambda: f"{total} is not over one index")
     j, low, high = total.limits[0]
+    demand(bool((high - low + 1).is_nonnegative), lambda: f"{total} may run backwards")
     gap = total.function - (primitive - primitive.subs(j, j - 1))
     demand(not {low, high} & {oo, -oo}, "a sum without an end has no last term")
     demand(not captured([primitive], low, high), lambda: f"{primitive} would capture an end of the sum")

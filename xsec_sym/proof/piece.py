@@ -16,11 +16,7 @@ from sympy import (
     And,
     Eq,
     Expr,
-    Ge,
-    Gt,
     Integral,
-    Le,
-    Lt,
     Max,
     Mul,
     Ne,
@@ -32,7 +28,6 @@ from sympy import (
     S,
     Symbol,
     besseli,
-    exp,
     oo,
     pi,
     sympify,
@@ -40,35 +35,10 @@ from sympy import (
 
 from xsec_sym.proof.domain import Choices, Domain, Integers, Interval
 from xsec_sym.proof.field import Field, Unsettled
+from xsec_sym.proof.signs import FLIP, Sign, both_sides, difference_of_exponentials, plus, relation_facts, times
 
 Terms = dict[tuple[tuple[Symbol, int], ...], Fraction]  # monomial -> coefficient, a monomial as (atom, power) pairs
 Fact = tuple[Expr, bool]
-Sign = str | None  # "+", "-", "0", ">=" (not negative), "<=" (not positive), None: unknown
-FLIP: dict[Sign, Sign] = {"+": "-", "-": "+", "0": "0", ">=": "<=", "<=": ">=", None: None}
-
-
-def times(a: Sign, b: Sign) -> Sign:
-    if "0" in (a, b):
-        return "0"
-    if a is None or b is None:
-        return None
-    strict = a in "+-" and b in "+-"
-    positive = (a in ("+", ">=")) == (b in ("+", ">="))
-    return ("+" if positive else "-") if strict else (">=" if positive else "<=")
-
-
-def plus(a: Sign, b: Sign) -> Sign:
-    if a == "0":
-        return b
-    if b == "0":
-        return a
-    if a is None or b is None:
-        return None
-    up_a, up_b = a in ("+", ">="), b in ("+", ">=")
-    if up_a != up_b:
-        return None
-    strict = a in "+-" or b in "+-"
-    return ("+" if strict else ">=") if up_a else ("-" if strict else "<=")
 
 
 def terms_of(polynomial: Poly) -> Terms:
@@ -238,12 +208,12 @@ class Piece:
             return _constant_sign(expression)
         if isinstance(expression, Max):
             above = {self.sign(a) for a in expression.args}
-            if above & {"+", ">=", "0"}:
+            if above & {"+", ">=", "0"} and all(self._real(a) for a in expression.args):
                 return "+" if "+" in above else ">="
         if isinstance(expression, Piecewise):
             return self._sign_of_branches(expression)
         if expression.is_Add and len(expression.args) == 2:
-            powers = _difference_of_exponentials(*expression.args)
+            powers = difference_of_exponentials(*expression.args)
             if powers is not None and self._real(expression) and self.sign(powers[0] - powers[1]) is not None:
                 return self.sign(powers[0] - powers[1])  # the exponential is increasing
         if isinstance(expression, besseli) and expression.args[0].is_integer and self._real(expression.args[1]):
@@ -281,7 +251,7 @@ class Piece:
         found: set[Sign] = set()
         for value, condition in e.args:
             facts = relation_facts(condition)
-            for (gap, strict), (big, small) in zip(facts, _both_sides(condition), strict=True):
+            for (gap, strict), (big, small) in zip(facts, both_sides(condition), strict=True):
                 if self.sign(big) in ("+", ">=") and self.sign(small) in ("+", ">="):
                     facts = [*facts, (gap * (big + small), strict)]
             found.add(self.extended([(f.expand(), strict) for f, strict in facts]).sign(value))
@@ -482,37 +452,6 @@ def _speaks_of(x: Symbol, where: tuple[Any, ...], fact: Fact) -> bool:
     """Whether a fact about an integrand over another variable says something of x, which is free in it."""
     y, low, high = where
     return low.has(x) or high.has(x) or (y != x and fact[0].has(x))
-
-
-def relation_facts(condition: Expr) -> list[tuple[Expr, bool]]:
-    """What an inequality says, as (expression, strict); other conditions say nothing usable."""
-    if isinstance(condition, And):
-        return [fact for c in condition.args for fact in relation_facts(c)]
-    if isinstance(condition, Gt | Ge):
-        return [(condition.lhs - condition.rhs, isinstance(condition, Gt))]
-    if isinstance(condition, Lt | Le):
-        return [(condition.rhs - condition.lhs, isinstance(condition, Lt))]
-    return []
-
-
-def _both_sides(condition: Expr) -> list[tuple[Expr, Expr]]:
-    """The larger and the smaller side of each inequality in a condition."""
-    if isinstance(condition, And):
-        return [pair for c in condition.args for pair in _both_sides(c)]
-    if isinstance(condition, Gt | Ge):
-        return [(condition.lhs, condition.rhs)]
-    return [(condition.rhs, condition.lhs)] if isinstance(condition, Lt | Le) else []
-
-
-def _difference_of_exponentials(first: Expr, second: Expr) -> tuple[Expr, Expr] | None:
-    """(a, b) where the two terms are exp(a) and -exp(b), 1 being exp(0)."""
-    exponents: dict[int, Expr] = {}
-    for term in (first, second):
-        side, rest = term.as_coeff_Mul()
-        if side not in (1, -1) or not (rest == 1 or isinstance(rest, exp)):
-            return None
-        exponents[int(side)] = S.Zero if rest == 1 else rest.args[0]
-    return (exponents[1], exponents[-1]) if len(exponents) == 2 else None
 
 
 def _constant_sign(expression: Expr) -> Sign:

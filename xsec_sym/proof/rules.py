@@ -48,6 +48,7 @@ from sympy import (
     hyper,
     legendre,
     log,
+    nan,
     oo,
     preorder_traversal,
     sign,
@@ -60,10 +61,10 @@ from sympy.logic.boolalg import Boolean
 
 from xsec_sym.proof.domain import Choices, Domain, Integers, Interval
 from xsec_sym.proof.field import Unsettled
-from xsec_sym.proof.magnitude import Magnitude
 from xsec_sym.proof.names import captured, keeps_to, natural
-from xsec_sym.proof.piece import Piece, plus
+from xsec_sym.proof.piece import Piece
 from xsec_sym.proof.say import said
+from xsec_sym.proof.signs import plus
 
 ENTIRE = (Add, Mul, Pow, Symbol, Number, NumberSymbol, exp, sin, cos, sinh, cosh, tanh, atan, erf)
 SWITCHES = (Abs, Heaviside, Max, Min, Piecewise, sign)
@@ -264,6 +265,7 @@ def settle(goal: Goal) -> list[Goal]:
 def close(goal: Goal) -> list[Goal]:
     left_over = goal.left.has(Integral) or goal.right.has(Integral)
     demand(not (goal.doubtful and left_over), "an integral that may not exist has been given no value")
+    demand(not goal.left.has(nan), "the left side is not defined")
     demand(
         goal.left == goal.right or goal.piece.is_zero(goal.left - goal.right),
         lambda: f"{goal.left} and {goal.right} are not shown to be equal",
@@ -273,13 +275,14 @@ def close(goal: Goal) -> list[Goal]:
 
 def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr], back: bool = False) -> list[Goal]:
     """Replace the left side of an equation that holds by its right side, inside the lemma's own domain; or ``back``."""
-    index = {v.symbol: v.member(v.index) for v in proven.domain.variables if isinstance(v, Integers)}
     demand(all(isinstance(key, Symbol) for key in mapping), "only a name can be mapped")
-    mapping = {**{v: k for v, k in index.items() if v not in mapping}, **mapping}
+    mapping = _filled(proven, mapping)
     for v in proven.domain.variables:
         if isinstance(v, Integers):
             demand(v.high is None, lambda: f"{v.text()} ends, so no symbolic member of it can be taken")
             count = (mapping[v.symbol] - v.low) / v.step
+            same = (mapping[v.index] - count).expand() == 0
+            demand(same, lambda: f"{v.index} counts the members of {v.text()}, so it is {count}")
             demand(bool(count.is_integer and count.is_nonnegative), lambda: f"{mapping[v.symbol]} is not in {v.text()}")
     bound = {
         limit[0]
@@ -315,6 +318,16 @@ def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr], back: bool = 
     return [goal.with_left(goal.left.xreplace({old: new}))]
 
 
+def _filled(proven: Proven, mapping: dict[Symbol, Expr]) -> dict[Symbol, Expr]:
+    """A mapping with what it leaves out: an integer variable and the index that counts its values belong together."""
+    filled = dict(mapping)
+    for v in proven.domain.variables:
+        if isinstance(v, Integers):
+            value = filled.setdefault(v.symbol, v.member(filled.get(v.index, v.index)))
+            filled.setdefault(v.index, (value - v.low) / v.step)
+    return filled
+
+
 def contexts(goal: Goal, part: Expr) -> list[Piece]:
     """The pieces in which a part of the left side stands: the goal's own, inside the integrals around it."""
     found: list[Piece] = []
@@ -329,6 +342,8 @@ def contexts(goal: Goal, part: Expr) -> list[Piece]:
             runs = all(natural(j, a) for j, a, _ in e.limits)
             apart = not any(piece.facts_about(j) for j, *_ in e.limits)
             demand(runs and apart, lambda: f"{part} stands in a sum whose index is not known to be natural")
+            onward = all(b == oo or (b - a + 1).is_nonnegative for _, a, b in e.limits)
+            demand(onward, lambda: f"{e} may run backwards")
             fixed = not any(occurs(part, end) for _, *ends in e.limits for end in ends)
             demand(fixed, "a limit of a sum stays as it is")
             visit(e.function, piece)
@@ -385,51 +400,7 @@ def connected(piece: Piece, x: Symbol) -> None:
 
 
 def _replaced(proven: Proven, mapping: dict[Symbol, Expr], back: bool) -> Expr:
-    index = {v.symbol: v.member(v.index) for v in proven.domain.variables if isinstance(v, Integers)}
-    return (proven.form if back else proven.left).subs({**index, **mapping}, simultaneous=True)
-
-
-def induct(
-    goal: Goal,
-    index: Symbol,
-    factor: Expr,
-    terms: list[Expr],
-    proven: Proven | None = None,
-    mapping: dict[Symbol, Expr] | None = None,
-) -> list[Goal]:
-    """X(0) >= 0, and X(n + 1) is a factor that is not negative times X(n), plus terms that show they are not negative.
-
-    A lemma |Y| = Y may show it of a Y in them.
-    """
-    x = goal.right
-    demand(goal.left == Magnitude(x), lambda: f"{goal.left} = {x} does not say that {x} is not negative")
-    demand(natural(index), lambda: f"{index} does not run over 0, 1, 2, ...")
-    demand(not goal.piece.facts_about(index), "what is known of the index need not hold for the next one")
-    for part in (x.subs(index, 0), factor):
-        demand(goal.piece.sign(part) in ("+", ">=", "0"), lambda: f"{part} is not shown to be at least 0")
-    added = x.subs(index, index + 1) - factor * x
-    (shown,) = fact(goal, added, terms, None, proven, mapping, back=proven is not None)
-    demand(any(e == added for e, _ in shown.piece.facts), lambda: f"{added} is not shown to be at least 0")
-    return []
-
-
-def dominate(goal: Goal, total: Sum, first: Expr, ratio: Expr) -> list[Goal]:
-    """|sum of f_j| <= first / (1 - ratio), noted as two facts, where |f_j| <= first ratio^j and 0 <= ratio < 1."""
-    demand(
-        len(total.limits) == 1 and total.limits[0][1:] == (0, oo), lambda: f"{total} does not run from 0 without end"
-    )
-    j = total.limits[0][0]
-    demand(natural(j), lambda: f"{j} does not run over 0, 1, 2, ...")
-    demand(not goal.piece.facts_about(j), lambda: f"what is known of {j} is not known of the index")
-    demand(not first.has(j) and not ratio.has(j), "the bound depends on j")
-    sign_of = goal.piece.sign
-    shrinks = sign_of(ratio) in ("+", ">=", "0") and sign_of(1 - ratio) == "+"
-    demand(shrinks, lambda: f"{ratio} is not shown to be in [0, 1)")
-    bound = first * ratio**j
-    for gap in (bound - total.function, bound + total.function):
-        demand(sign_of(gap) in ("+", ">=", "0"), lambda: f"{gap} is not shown to be at least 0")
-    whole = first / (1 - ratio)
-    return [replace(goal, piece=goal.piece.showing([(whole - total, False), (whole + total, False)]))]
+    return (proven.form if back else proven.left).subs(_filled(proven, mapping), simultaneous=True)
 
 
 # --- regularity ---------------------------------------------------------------------------------------
@@ -451,16 +422,16 @@ def resolved(e: Expr, piece: Piece) -> Expr:
 
 def smooth(e: Expr, x: Symbol, piece: Piece) -> None:
     """e is analytic in x on the open piece: no root or logarithm of what may vanish, no quotient by it."""
-    _critical(e, lambda a: piece.sign(a), lambda a: a.has(x))
+    _critical(e, x, lambda a: piece.sign(a), lambda a: a.has(x))
 
 
 def continuous_at(e: Expr, x: Symbol, end: Expr, outer: Piece) -> None:
     """e is continuous up to x = end."""
     demand(end not in (oo, -oo), "an infinite end needs a change of variables first")
-    _critical(e, lambda a: outer.sign(a.subs(x, end)), lambda _: False)
+    _critical(e, x, lambda a: outer.sign(a.subs(x, end)), lambda _: False)
 
 
-def _critical(e: Expr, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], bool]) -> None:
+def _critical(e: Expr, x: Symbol, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], bool]) -> None:
     for node in preorder_traversal(e):
         allowed = ("+",) if strict(node) else ("+", ">=", "0")
         if isinstance(node, Pow) and not node.exp.is_nonnegative:
@@ -491,8 +462,8 @@ def _critical(e: Expr, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], 
             demand(natural, lambda: f"{said(node)} is not known to be smooth")
         elif isinstance(node, legendre):
             demand(bool(node.args[0].is_integer), lambda: f"{said(node)} is not of integer degree")
-        elif isinstance(node, Tuple):
-            continue
+        elif isinstance(node, Tuple) or (isinstance(node, SWITCHES) and not node.has(x)):
+            continue  # which way a switch stands that does not depend on x is of no matter
         elif not isinstance(node, ENTIRE):
             # a list of what is smooth, since a list of what is not would always miss one
             raise Refused(f"{said(node)} is not known to be smooth")
@@ -508,9 +479,7 @@ __all__ = [
     "contexts",
     "continuous_at",
     "demand",
-    "dominate",
     "fact",
-    "induct",
     "lemma",
     "nest",
     "occurs",

@@ -34,8 +34,9 @@ from sympy import (
 
 from xsec_sym.proof.calculus import bounded, difference, iterated, parts
 from xsec_sym.proof.names import captured, natural, plain
-from xsec_sym.proof.piece import Piece, times
+from xsec_sym.proof.piece import Piece
 from xsec_sym.proof.rules import Goal, Proven, contexts, demand, lemma, occurs, smooth
+from xsec_sym.proof.signs import times
 
 CIRCLE = (S.Zero, 2 * pi)
 
@@ -204,7 +205,7 @@ def _linear(e: Expr) -> Expr:
         if isinstance(base, cos) and count.is_Integer and count > 0:
             waves += [base.args[0]] * int(count)
         else:
-            others *= _linear(part)
+            others *= part if part == spread else _linear(part)
     sums = {S.Zero: S.One}
     for angle in waves:
         found: dict[Expr, Expr] = {}
