@@ -39,19 +39,8 @@ from sympy.core.function import AppliedUndef
 from xsec_sym.proof.ends import end_value, tends_to
 from xsec_sym.proof.names import captured, natural, plain
 from xsec_sym.proof.piece import Piece
-from xsec_sym.proof.rules import (
-    SWITCHES,
-    Goal,
-    Proven,
-    Refused,
-    contexts,
-    continuous_at,
-    demand,
-    lemma,
-    occurs,
-    resolved,
-    smooth,
-)
+from xsec_sym.proof.regular import SWITCHES, Refused, continuous_at, demand, resolved, smooth
+from xsec_sym.proof.rules import Goal, Proven, contexts, lemma, occurs
 from xsec_sym.proof.signs import times
 
 BINDERS = (Integral, Sum)

@@ -14,7 +14,8 @@ from sympy import Symbol
 from xsec_sym.proof import calculus, induction, plane, rules, sphere, wire
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.field import Unsettled
-from xsec_sym.proof.rules import Goal, Refused
+from xsec_sym.proof.regular import Refused
+from xsec_sym.proof.rules import Goal
 
 MOVES: dict[str, Callable[..., list[Goal]]] = {
     move.__name__: move

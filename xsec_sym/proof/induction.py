@@ -8,7 +8,8 @@ from sympy import Expr, Sum, Symbol, oo
 
 from xsec_sym.proof.magnitude import Magnitude
 from xsec_sym.proof.names import natural
-from xsec_sym.proof.rules import Goal, Proven, demand, fact
+from xsec_sym.proof.regular import demand
+from xsec_sym.proof.rules import Goal, Proven, fact
 
 
 def induct(

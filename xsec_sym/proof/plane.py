@@ -6,7 +6,8 @@ from sympy import Integral, Sum, Symbol, cos, oo, pi, sin
 
 from xsec_sym.proof.calculus import iterated, outer_names
 from xsec_sym.proof.names import plain
-from xsec_sym.proof.rules import Goal, demand
+from xsec_sym.proof.regular import demand
+from xsec_sym.proof.rules import Goal
 
 
 def polar(goal: Goal, integral: Integral, radius: Symbol, azimuth: Symbol) -> list[Goal]:

@@ -35,7 +35,8 @@ from sympy import (
 from xsec_sym.proof.calculus import bounded, difference, iterated, parts
 from xsec_sym.proof.names import captured, natural, plain
 from xsec_sym.proof.piece import Piece
-from xsec_sym.proof.rules import Goal, Proven, contexts, demand, lemma, occurs, smooth
+from xsec_sym.proof.regular import demand, smooth
+from xsec_sym.proof.rules import Goal, Proven, contexts, lemma, occurs
 from xsec_sym.proof.signs import times
 
 CIRCLE = (S.Zero, 2 * pi)
