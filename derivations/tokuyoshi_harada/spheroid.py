@@ -6,11 +6,11 @@ the equation of a spheroid, solved for the remaining semi-axis, gives the same v
 
 from sympy import Integral, Matrix, cos, pi, sqrt, symbols
 
+from derivations.extensions.half_angle import half_angle
 from xsec_sym.exact import LobeGGX, ggx
 from xsec_sym.proof import Source, interval
 
 paper = Source("tokuyoshi_harada", section="1")
-project = Source("xsec", section="lobes")
 
 theta, alpha, m, phi = symbols("theta alpha m phi", real=True)
 ROUGH = interval(alpha, 0, 1, open="left")
@@ -19,20 +19,6 @@ COSINE = "; m = cos(theta), so that cos(theta / 2) is the root of (1 + m) / 2"
 
 
 # --- the lobe -------------------------------------------------------------------------------------------
-
-half_angle = project.claim(
-    "half-angle",
-    "the cosine by that of half the angle",
-    left=cos(theta),
-    corrected=2 * cos(theta / 2) ** 2 - 1,
-    where=[interval(theta, -pi, pi)],
-)
-
-
-@half_angle.proof
-def oscillation(step):
-    step.ode(theta, [1, 0, 1], at=0)
-
 
 lobe = paper.claim(
     "ssl",

@@ -1,0 +1,93 @@
+"""What the squared lobes of tokuyoshi_harada integrate to over the sphere.
+
+For one roughness an elementary antiderivative does. For two, the sphere is given its poles on the y axis, the one of
+the smaller roughness: then stretching the directions along y moves them along the meridians only. The circles of
+latitude integrate in closed form, and what is left is an incomplete elliptic integral of the second kind.
+"""
+
+from sympy import Integral, atan, cos, oo, pi, sin, sqrt, symbols
+
+from derivations.tokuyoshi_harada.ellipsoid import alpha_max, alpha_x, alpha_y
+from derivations.tokuyoshi_harada.lobe import lobe
+from derivations.tokuyoshi_harada.spheroid import AREA, ROUGH, alpha, m
+from xsec_sym.exact import LobeGGX
+from xsec_sym.proof import Source, interval
+
+project = Source("xsec", section="ellipsoidal lobe, integral")
+
+y, h, t, w, A, B = symbols("y h t w A B", real=True)
+EITHER = [interval(alpha_x, 0, 1, open="left"), interval(alpha_y, 0, alpha_x, open="left")]
+LARGER = "alpha_x >= alpha_y; where it is the other way round, they change places"
+
+whole = project.claim(
+    "ssl-integral",
+    "the integral of the squared spheroidal lobe over the sphere",
+    left=Integral(2 * pi * LobeGGX(m, alpha), (m, -1, 1)),
+    corrected=4 * pi * alpha**2,
+    where=[ROUGH],
+    reading=AREA,
+)
+
+
+@whole.proof
+def rational(step):
+    below = 1 - m + alpha**2 * (1 + m)
+    step.unfold().fact(below, (1 - m) * (1 - alpha**2), 2 * alpha**2, inside=(m, -1, 1))
+    step.antiderivative(4 * pi * alpha**4 * (1 + m) / below)
+
+
+# --- circles of latitude --------------------------------------------------------------------------------
+
+circle = project.claim(
+    "mean-over-a-circle.square",
+    "the mean of 1 / (A - B cos)^2 over a circle",
+    left=Integral(1 / (A - B * cos(2 * pi * t)) ** 2, (t, 0, 1)),
+    corrected=A / sqrt(A**2 - B**2) ** 3,
+    where=[interval(A, 0, oo, open=True), interval(B, 0, A, open="right")],
+)
+
+
+@circle.proof
+def continuous_primitive(step):
+    """That of the first power, and a quotient that is the same at both ends."""
+    step.fact(A**2 - B**2, (A - B) * (A + B))
+    root = sqrt(A**2 - B**2)
+    wave = cos(2 * pi * t)
+    step.fact(A - B * wave, A - B, B * (1 - wave), inside=(t, 0, 1))
+    first = (t + atan(B * sin(2 * pi * t) / (A + root - B * wave)) / pi) / root
+    step.antiderivative(A * first / root**2 + B * sin(2 * pi * t) / (2 * pi * root**2 * (A - B * wave)))
+
+
+# --- the sphere with its poles on the y axis ------------------------------------------------------------
+
+across = sqrt(1 - y**2)
+K = lobe(across * sin(2 * pi * t), y, across * cos(2 * pi * t)).subs(alpha_max, alpha_x)
+stretch = alpha_x**2 - (alpha_x**2 - alpha_y**2) * h**2
+flat = 4 * alpha_x**2 + (1 - alpha_x**2) ** 2 * h**2
+
+single = project.claim(
+    "sel-integral.single",
+    "the integral of the squared ellipsoidal lobe over the sphere, as an integral over one variable",
+    left=2 * pi * Integral(K, (t, 0, 1), (y, -1, 1)),
+    corrected=8 * pi * alpha_x**4 * alpha_y * (1 + alpha_x**2)
+    * Integral(1 / (sqrt(flat) ** 3 * sqrt(stretch)), (h, -1, 1)),
+    where=EITHER,
+    reading=LARGER + "; (x, y, z) = (sqrt(1 - y^2) sin(2 pi t), y, sqrt(1 - y^2) cos(2 pi t))",
+)  # fmt: skip
+
+
+@single.proof
+def along_the_meridians(step):
+    """y = alpha_y h / sqrt(alpha_x^2 (1 - h^2) + alpha_y^2 h^2): h belongs to the stretched direction."""
+    step.nest()
+    widest = (alpha_x - alpha_y) * (alpha_x + alpha_y)
+    step.fact(stretch, alpha_y**2, widest * (1 - h) * (1 + h), inside=(h, -1, 1))
+    step.substitute(h, alpha_y * h / sqrt(stretch), -1, 1)
+    inner = next(i for i in step.left.atoms(Integral) if i.limits[0][0] == t)
+    A_here, B_here = 1 + alpha_x**2, sqrt(1 - h**2) * (1 - alpha_x**2)
+    step.rewrite(inner.function, stretch / alpha_x**2 / (A_here - B_here * cos(2 * pi * t)) ** 2)
+    print(step.left)
+
+
+if __name__ == "__main__":
+    project.tell()
