@@ -65,6 +65,8 @@ K = lobe(across * sin(2 * pi * t), y, across * cos(2 * pi * t)).subs(alpha_max, 
 stretch = alpha_x**2 - (alpha_x**2 - alpha_y**2) * h**2
 flat = 4 * alpha_x**2 + (1 - alpha_x**2) ** 2 * h**2
 
+scale = 4 * alpha_x**4 * alpha_y * (1 + alpha_x**2)
+
 single = project.claim(
     "sel-integral.single",
     "the integral of the squared ellipsoidal lobe over the sphere, as an integral over one variable",
@@ -86,7 +88,41 @@ def along_the_meridians(step):
     inner = next(i for i in step.left.atoms(Integral) if i.limits[0][0] == t)
     A_here, B_here = 1 + alpha_x**2, sqrt(1 - h**2) * (1 - alpha_x**2)
     step.rewrite(inner.function, stretch / alpha_x**2 / (A_here - B_here * cos(2 * pi * t)) ** 2)
-    print(step.left)
+    inner = next(i for i in step.left.atoms(Integral) if i.limits[0][0] == t)
+    step.linear(inner.function, integral=inner)
+    apart = (1 - alpha_x**2) * h**2 / (1 + sqrt(1 - h**2))
+    step.fact(A_here - B_here, 2 * alpha_x**2, apart, inside=(h, -1, 1))
+    step.lemma(circle, {A: A_here, B: B_here})
+    step.fact(flat, 4 * alpha_x**2, (1 - alpha_x**2) ** 2 * h**2, inside=(h, -1, 1))
+    step.rewrite(step.integrals[0].function, scale / (sqrt(flat) ** 3 * sqrt(stretch)))
+    step.linear(step.integrals[0].function)
+
+
+ends = 1 / (1 + alpha_x**2)
+squared = (1 + alpha_x**2) ** 2 - 4 * alpha_y**2
+
+legendre = project.claim(
+    "sel-integral",
+    "the integral of the squared ellipsoidal lobe over the sphere, as an elliptic integral",
+    left=8 * pi * alpha_x**4 * alpha_y * (1 + alpha_x**2)
+    * Integral(1 / (sqrt(flat) ** 3 * sqrt(stretch)), (h, -1, 1)),
+    corrected=2 * pi * alpha_x * alpha_y * (1 + alpha_x**2)
+    * Integral(sqrt((1 - (1 - alpha_x**2) ** 2 * w**2) / (1 - squared * w**2)), (w, -ends, ends)),
+    where=EITHER,
+    reading=LARGER + "; the left side is that of sel-integral.single. With g^2 = (1 + alpha_x^2)^2 - 4 alpha_y^2 and "
+    "k = (1 - alpha_x^2) / g the right side is 4 pi alpha_x alpha_y (1 + alpha_x^2) / g times Legendre's "
+    "E(arcsin(g / (1 + alpha_x^2)), k), the argument of whose sine is g w",
+)  # fmt: skip
+
+
+@legendre.proof
+def towards_legendre(step):
+    """h = 2 alpha_x w / sqrt(1 - (1 - alpha_x^2)^2 w^2)."""
+    bend = (1 - alpha_x**2) ** 2
+    for side in (w, -w):
+        left_over = (1 - alpha_x**2) * (ends - side), 2 * alpha_x**2 * ends
+        step.fact(1 - (1 - alpha_x**2) * side, *left_over, inside=(w, -ends, ends))
+    step.substitute(w, 2 * alpha_x * w / sqrt(1 - bend * w**2), -ends, ends)
 
 
 if __name__ == "__main__":
