@@ -125,5 +125,59 @@ def towards_legendre(step):
     step.substitute(w, 2 * alpha_x * w / sqrt(1 - bend * w**2), -ends, ends)
 
 
+# --- bounds ---------------------------------------------------------------------------------------------
+
+rise = sqrt((1 - (1 - alpha_x**2) ** 2 * w**2) / (1 - squared * w**2))  # from 1 at w = 0 to alpha_x / alpha_y
+above = legendre.form - 4 * pi * alpha_x * alpha_y
+beneath = 4 * pi * alpha_x**2 - legendre.form
+factor = 2 * pi * alpha_x * alpha_y * (1 + alpha_x**2)
+
+
+def between_the_ends(step):
+    """Both polynomials under the root are positive, and their quotient lies between its values at 0 and at the ends."""
+    for side in (w, -w):
+        step.fact(1 - (1 - alpha_x**2) * side, (1 - alpha_x**2) * (ends - side), 2 * alpha_x**2 * ends,
+                  inside=(w, -ends, ends))  # fmt: skip
+    gap = 4 * (alpha_x - alpha_y) * (alpha_x + alpha_y)
+    top, bottom = 1 - (1 - alpha_x**2) ** 2 * w**2, 1 - squared * w**2
+    middle = (ends - w) * (ends + w)
+    step.fact(bottom, 4 * alpha_y**2 * ends**2, (1 - alpha_x**2) ** 2 * middle, gap * middle, inside=(w, -ends, ends))
+    step.fact(rise - 1, gap * w**2 / bottom / (rise + 1), inside=(w, -ends, ends))
+    square = alpha_x**2 / alpha_y**2
+    share = gap * (1 + alpha_x**2) ** 2 * middle / (4 * alpha_y**2 * bottom)
+    step.fact(alpha_x / alpha_y - rise, share / (alpha_x / alpha_y + rise), inside=(w, -ends, ends))
+
+
+for name, more, form, constant, sign in (
+    ("least", rise - 1, above, 1, 1),
+    ("most", alpha_x / alpha_y - rise, beneath, alpha_x / alpha_y, -1),
+):
+    excess = project.claim(
+        f"sel-integral.{name}.excess",
+        "the integral of the squared ellipsoidal lobe against its bound",
+        left=factor * Integral(more, (w, -ends, ends)),
+        corrected=form,
+        where=EITHER,
+        reading=LARGER,
+    )
+    bound = project.inequality(
+        f"sel-integral.{name}",
+        f"the integral of the squared ellipsoidal lobe is at {name} 4 pi alpha_x "
+        + ("alpha_y" if sign == 1 else "times alpha_x"),
+        form, where=EITHER, reading=LARGER,
+    )  # fmt: skip
+
+    @excess.proof
+    def apart(step, constant=constant, sign=sign):
+        between_the_ends(step)
+        step.linear(sign * rise, -sign * constant)
+        step.antiderivative(w, next(i for i in step.integrals if not i.function.has(w)))
+
+    @bound.proof
+    def one_sign(step, excess=excess):
+        between_the_ends(step)
+        step.fact(step.right, by=excess, back=True).settle()
+
+
 if __name__ == "__main__":
     project.tell()

@@ -18,7 +18,7 @@ project = Source("xsec", section="ellipsoidal lobe")
 
 y, z = symbols("y z", real=True)
 EITHER = [interval(alpha_x, 0, 1, open="left"), interval(alpha_y, 0, alpha_x, open="left")]
-SPHERE = [interval(z, -1, 1, open="left"), interval(y, -sqrt(1 - z**2), sqrt(1 - z**2))]
+SPHERE = [interval(z, -1, 1, open="left"), interval(y, -1, 1), y**2 + z**2 <= 1]
 LARGER = (
     "alpha_x >= alpha_y; where it is the other way round, x and y change places. The direction has the unit length, "
     "and the sign of x does not matter"
@@ -164,8 +164,6 @@ def inside_the_narrower_cone(step):
     """U - 1 is at most half of U^2 - 1, which is greatest at x = 0."""
     ready(step)
     more = (alpha_x - alpha_y) * (alpha_x + alpha_y) / alpha_y**2
-    rim = sqrt(1 - z**2)
-    step.fact(x**2, (rim - y) * (rim + y))
     inside = alpha_x**2 / alpha_y**2 * (1 + z) * (alpha_y**2 - tangent)
     step.fact(P - U, (U - 1) ** 2 / 2, more * x**2 / 2, inside, more * (1 - z) ** 2 / 2)
     step.fact(slim - thick, -apart)
