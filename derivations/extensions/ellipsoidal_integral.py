@@ -139,11 +139,10 @@ def between_the_ends(step):
         step.fact(1 - (1 - alpha_x**2) * side, (1 - alpha_x**2) * (ends - side), 2 * alpha_x**2 * ends,
                   inside=(w, -ends, ends))  # fmt: skip
     gap = 4 * (alpha_x - alpha_y) * (alpha_x + alpha_y)
-    top, bottom = 1 - (1 - alpha_x**2) ** 2 * w**2, 1 - squared * w**2
+    bottom = 1 - squared * w**2
     middle = (ends - w) * (ends + w)
     step.fact(bottom, 4 * alpha_y**2 * ends**2, (1 - alpha_x**2) ** 2 * middle, gap * middle, inside=(w, -ends, ends))
     step.fact(rise - 1, gap * w**2 / bottom / (rise + 1), inside=(w, -ends, ends))
-    square = alpha_x**2 / alpha_y**2
     share = gap * (1 + alpha_x**2) ** 2 * middle / (4 * alpha_y**2 * bottom)
     step.fact(alpha_x / alpha_y - rise, share / (alpha_x / alpha_y + rise), inside=(w, -ends, ends))
 

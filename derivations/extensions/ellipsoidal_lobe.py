@@ -23,17 +23,17 @@ LARGER = (
     "alpha_x >= alpha_y; where it is the other way round, x and y change places. The direction has the unit length, "
     "and the sign of x does not matter"
 )
+ROOTS = LARGER + ". The claim is on the roots of the two lobes, which are positive"
 x = sqrt(1 - y**2 - z**2)
 
 # --- the two lobes --------------------------------------------------------------------------------------
 
-K = lobe(x, y, z).subs(alpha_max, alpha_x)
 U = stretched_length(x, y, z).subs(alpha_max, alpha_x)
 half = tuple(w / sqrt(2 * (1 + z)) for w in (x, y, 1 + z))  # the half vector of the direction and the axis
-G = pi * alpha_x * alpha_y * ggx_anisotropic(*half, alpha_x, alpha_y)
 slopes = (half[0] / alpha_x, half[1] / alpha_y, half[2])
+root_K = 2 * alpha_x**2 / ((1 + alpha_x**2) * U - z * (1 - alpha_x**2))
+root_G = 1 / dot(slopes, slopes)
 P = z + alpha_x**2 * (1 + z)
-ROOTED = (alpha_y * U) ** 2 > 0  # always; said first, so that U has a sign when the condition on it is read
 
 # 1 / sqrt(K) and 1 / sqrt(G), written out
 slim = ((1 + alpha_x**2) * U - z * (1 - alpha_x**2)) / (2 * alpha_x**2)
@@ -48,9 +48,7 @@ def ready(step):
     step.fact(U - 1, excess / (U + 1))
     shares = (1 + alpha_x**2) * (U - 1) / (2 * alpha_x**2), 1, (1 - alpha_x**2) * (1 - z) / (2 * alpha_x**2)
     step.fact(slim, *shares)
-    step.fact(slim**2, *(slim * share for share in shares))
     step.fact(thick, (1 - z) / (2 * alpha_x**2), excess / (2 * alpha_x**2 * (1 + z)), (1 + z) / 2)
-    step.fact(thick + slim, thick, slim)
 
 
 isotropic = project.claim(
@@ -71,6 +69,16 @@ project.claim(
     where=EITHER,
 ).proof(lambda step: step.settle())
 
+project.claim(
+    "sel-stands-for",
+    "the anisotropic GGX at the half vector, scaled to 1 on the axis, by the root that it has there",
+    left=pi * alpha_x * alpha_y * ggx_anisotropic(*half, alpha_x, alpha_y),
+    corrected=thick**-2,
+    where=[*SPHERE, *EITHER],
+    reading=LARGER + "; D per steradian with unit projected area. The lobe itself is the square of t.5 for alpha_x >= "
+    "alpha_y; both being positive, they compare as their roots do",
+).proof(lambda step: None)
+
 gap = project.claim(
     "sel-gap",
     "by how much the ellipsoidal lobe and GGX differ, in their inverse roots",
@@ -78,8 +86,9 @@ gap = project.claim(
     corrected=apart,
     where=[*SPHERE, *EITHER],
     reading=LARGER + ". The left side is the square of the half vector, divided by the roughness, less the inverse of "
-    "the distance to the ellipsoid: 1 / sqrt(G) - 1 / sqrt(K). So the lobe equals GGX where U = 1, which is the plane of the larger roughness, y = 0, and all "
-    "of the sphere for one roughness; and where U = P",
+    "the distance to the ellipsoid: 1 / sqrt(G) - 1 / sqrt(K). So the lobe equals GGX where U = 1, which is the plane "
+    "of the larger roughness, y = 0, and all of the sphere for one roughness; and where U = P. Elsewhere it lies above "
+    "GGX where U > P, and below where U < P",
 )
 
 
@@ -91,61 +100,38 @@ def two_factors(step):
 below = project.inequality(
     "sel-below-spheroid",
     "the ellipsoidal lobe is nowhere larger than the spheroidal one of its larger roughness",
-    lobe(x, y, z).subs(alpha_y, alpha_x), K,
-    where=[*SPHERE, *EITHER], reading=LARGER,
-)  # fmt: skip
-
-upper = project.inequality(
-    "sel-above", "where U >= P, the ellipsoidal lobe is at least GGX", K, G,
-    where=[*SPHERE, *EITHER, ROOTED, U >= P], reading=LARGER,
-)  # fmt: skip
-
-lower = project.inequality(
-    "sel-below", "where U <= P, the ellipsoidal lobe is at most GGX", G, K,
-    where=[*SPHERE, *EITHER, ROOTED, U <= P], reading=LARGER,
+    root_K.subs(alpha_y, alpha_x), root_K,
+    where=[*SPHERE, *EITHER], reading=ROOTS,
 )  # fmt: skip
 
 
 def by_inverse_roots(step, more, less):
-    """1 / a^2 - 1 / b^2 = (b - a) (b + a) / (a b)^2."""
-    step.fact(step.right, (more - less) * (more + less) / (more * less) ** 2).settle()
+    step.fact(step.right, (more - less) / (more * less)).settle()
 
 
 @below.proof
 def longer_than_one(step):
     ready(step)
-    alike = (1 + alpha_x**2 - z * (1 - alpha_x**2)) / (2 * alpha_x**2)
+    alike = slim.subs(alpha_y, alpha_x)
     step.fact(alike, (1 - alpha_x**2) * (1 - z) / (2 * alpha_x**2), 1)
     step.fact(slim - alike, (1 + alpha_x**2) * (U - 1) / (2 * alpha_x**2))
     by_inverse_roots(step, slim, alike)
 
 
-@upper.proof
-def beyond(step):
-    ready(step)
-    step.fact(thick - slim, apart)
-    by_inverse_roots(step, thick, slim)
+# --- above and below by the angle alone ------------------------------------------------------------------------
 
-
-@lower.proof
-def within(step):
-    ready(step)
-    step.fact(slim - thick, -apart)
-    by_inverse_roots(step, slim, thick)
-
-
-# --- the same by the angle alone ------------------------------------------------------------------------
-
+rim = sqrt(1 - z**2)
+cone = (1 - alpha_y**2) / (1 + alpha_y**2)  # the cosine at which half the angle has the tangent alpha_y
 tangent = (1 - z) / (1 + z)  # squared, of half the angle to the axis
 
 far = project.inequality(
-    "sel-above-far", "beyond tan(theta / 2) = alpha_x, the ellipsoidal lobe is at least GGX", K, G,
-    where=[*SPHERE, *EITHER, tangent >= alpha_x**2], reading=LARGER,
+    "sel-above-far", "beyond tan(theta / 2) = alpha_x, the ellipsoidal lobe is at least GGX", root_K, root_G,
+    where=[*SPHERE, *EITHER, tangent >= alpha_x**2], reading=ROOTS,
 )  # fmt: skip
 
 near = project.inequality(
-    "sel-below-near", "within tan(theta / 2) = alpha_y, the ellipsoidal lobe is at most GGX", G, K,
-    where=[*SPHERE, *EITHER, tangent <= alpha_y**2],
+    "sel-below-near", "within tan(theta / 2) = alpha_y, the ellipsoidal lobe is at most GGX", root_G, root_K,
+    where=[*EITHER, interval(z, cone, 1), interval(y, -rim, rim)],
     reading=LARGER + "; by sel-gap the two differ there unless y = 0 or the roughnesses are alike: for two roughnesses "
     "the lobe is no upper bound of GGX, however close they are",
 )  # fmt: skip
@@ -162,9 +148,11 @@ def outside_the_wider_cone(step):
 @near.proof
 def inside_the_narrower_cone(step):
     """U - 1 is at most half of U^2 - 1, which is greatest at x = 0."""
+    step.fact(1 + z, z - cone, 1 + cone)
     ready(step)
     more = (alpha_x - alpha_y) * (alpha_x + alpha_y) / alpha_y**2
-    inside = alpha_x**2 / alpha_y**2 * (1 + z) * (alpha_y**2 - tangent)
+    step.fact(x**2, (rim - y) * (rim + y))
+    inside = alpha_x**2 / alpha_y**2 * (1 + alpha_y**2) * (z - cone)
     step.fact(P - U, (U - 1) ** 2 / 2, more * x**2 / 2, inside, more * (1 - z) ** 2 / 2)
     step.fact(slim - thick, -apart)
     by_inverse_roots(step, slim, thick)
@@ -173,8 +161,8 @@ def inside_the_narrower_cone(step):
 # --- how far below --------------------------------------------------------------------------------------
 
 three_quarters = project.inequality(
-    "sel-three-quarters", "the ellipsoidal lobe is nowhere less than three quarters of GGX", 4 * K, 3 * G,
-    where=[*SPHERE, *EITHER], reading=LARGER,
+    "sel-three-quarters", "the ellipsoidal lobe is nowhere less than three quarters of GGX",
+    2 * root_K, sqrt(3) * root_G, where=[*SPHERE, *EITHER], reading=ROOTS,
 )  # fmt: skip
 
 
@@ -188,8 +176,7 @@ def sum_of_what_is_not_negative(step):
     for rest in ((1 - z) / 2, smooth * (1 + z) / 2):
         parts += [rest * c * w**2, rest * 2 * (c - 1) * w]
     step.fact(c * thick - slim, *(share * part for part in parts))
-    step.fact(c * thick + slim, c * thick, slim)
-    step.fact(step.right, 3 * (c * thick - slim) * (c * thick + slim) / (thick * slim) ** 2).settle()
+    step.fact(step.right, sqrt(3) * (c * thick - slim) / (thick * slim)).settle()
 
 
 narrow = sqrt((1 - z**2) / (3 - z**2))  # the smaller roughness for which U = sqrt(3) at x = 0
@@ -197,7 +184,7 @@ narrow = sqrt((1 - z**2) / (3 - z**2))  # the smaller roughness for which U = sq
 project.claim(
     "sel-three-quarters.sharp",
     "three quarters is the best such bound: a direction for every smaller roughness below 1 / sqrt(3)",
-    left=(G / K).subs({y: sqrt(1 - z**2)}).subs({alpha_x: 1, alpha_y: narrow}),
+    left=(root_G**2 / root_K**2).subs({y: sqrt(1 - z**2)}).subs({alpha_x: 1, alpha_y: narrow}),
     corrected=3 * (1 + z) ** 2 / (2 + z) ** 2,
     where=[interval(z, 0, 1, open=True)],
     reading="GGX over the lobe for alpha_x = 1 and alpha_y^2 = (1 - z^2) / (3 - z^2), in the plane x = 0; it tends to "

@@ -206,7 +206,7 @@ for i, (what, scale, below) in enumerate(LINES, 1):
         corrected=scale * numerator / below,
         edit="draw the root over the three squares only: z (1 - alpha_max^2) stands outside",
         where=[*SPACE, *ROUGH],
-        reading="the left side is (3) with (1) and (2); " + SCALED,
+        reading="the left side is (3) with (1) and (2); " + SCALED + ". The print fails on unit vectors as well",
     ).proof(by_cases)
 
 paper.claim(
