@@ -14,11 +14,13 @@ from xsec_sym.exact.distributions import (
     ggx,
     spherical_gaussian,
 )
+from xsec_sym.exact.lobes import LobeGGX, ggx_anisotropic
 from xsec_sym.exact.normals import NormalsBeckmann, NormalsGGX, NormalsKagiwadaKalaba
 from xsec_sym.exact.ring import AZIMUTH, RingCrossSection, RingMean, RingSpread, RingTilt, facing
 
 __all__ = [
     "AZIMUTH",
+    "LobeGGX",
     "NormalsBeckmann",
     "NormalsGGX",
     "NormalsKagiwadaKalaba",
@@ -38,5 +40,6 @@ __all__ = [
     "ellipsoidal",
     "facing",
     "ggx",
+    "ggx_anisotropic",
     "spherical_gaussian",
 ]
