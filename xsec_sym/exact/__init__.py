@@ -15,6 +15,7 @@ from xsec_sym.exact.distributions import (
     spherical_gaussian,
 )
 from xsec_sym.exact.normals import NormalsBeckmann, NormalsGGX, NormalsKagiwadaKalaba
+from xsec_sym.exact.revolution import SpheroidFacets, SpheroidRadius, SpheroidRate, SpheroidSlope
 from xsec_sym.exact.ring import AZIMUTH, RingCrossSection, RingMean, RingSpread, RingTilt, facing
 
 __all__ = [
@@ -30,6 +31,10 @@ __all__ = [
     "SigmaEllipsoidal",
     "SigmaGGX",
     "SigmaSphericalGaussian",
+    "SpheroidFacets",
+    "SpheroidRadius",
+    "SpheroidRate",
+    "SpheroidSlope",
     "SpreadBeckmann",
     "SpreadEllipsoidal",
     "SpreadGGX",
