@@ -16,6 +16,7 @@ from xsec_sym.exact.distributions import (
 )
 from xsec_sym.exact.lobes import LobeGGX, ggx_anisotropic
 from xsec_sym.exact.normals import NormalsBeckmann, NormalsGGX, NormalsKagiwadaKalaba
+from xsec_sym.exact.revolution import SpheroidFacets, SpheroidRadius, SpheroidRate, SpheroidSlope
 from xsec_sym.exact.ring import AZIMUTH, RingCrossSection, RingMean, RingSpread, RingTilt, facing
 
 __all__ = [
@@ -32,6 +33,10 @@ __all__ = [
     "SigmaEllipsoidal",
     "SigmaGGX",
     "SigmaSphericalGaussian",
+    "SpheroidFacets",
+    "SpheroidRadius",
+    "SpheroidRate",
+    "SpheroidSlope",
     "SpreadBeckmann",
     "SpreadEllipsoidal",
     "SpreadGGX",

@@ -65,7 +65,7 @@ from xsec_sym.proof.legendre import atomised as legendre_normal
 from xsec_sym.proof.names import captured
 from xsec_sym.proof.shapes import bounded, hidden_name, paired, split_exponent
 
-_HYPERBOLIC = (sinh, cosh, tanh, coth, csch, tan)
+_HYPERBOLIC = (sinh, cosh, tanh, coth, csch)
 
 
 class Field(Atoms):
@@ -110,7 +110,9 @@ class Field(Atoms):
             z = e.args[0]
             return self.atomise(log((1 + z) / (1 - z)) / 2)
         if isinstance(e, _HYPERBOLIC):
-            return self.atomise(e.rewrite(sin if isinstance(e, tan) else exp))
+            return self.atomise(e.rewrite(exp))
+        if isinstance(e, tan):
+            return self.atomise(sin(e.args[0]) / cos(e.args[0]))  # SymPy's own rewriting brings in the double angle
         if isinstance(e, asin):
             return self.atomise(pi / 2 - acos(e.args[0]))
         if isinstance(e, acos):
