@@ -87,8 +87,10 @@ class Piece:
         self._signs: dict[Expr, Sign] = dict(parent._signs) if parent else {}
         self._polynomial_signs: dict[frozenset[Any], Sign] = dict(parent._polynomial_signs) if parent else {}
         self._products: list[tuple[Terms, bool]] | None = None
+        self._pending: list[Fact] = []
         self._inner: dict[Any, Piece] = {}
-        for expression, strict in self.facts[len(parent.facts) if parent else 0 :]:
+        waiting, self._pending = (list(parent._pending) if parent else []), []
+        for expression, strict in [*self.facts[len(parent.facts) if parent else 0 :], *waiting]:
             self._learn(expression, strict)
 
     @classmethod
@@ -388,9 +390,11 @@ class Piece:
         return self._products
 
     def _learn(self, expression: Expr, strict: bool) -> None:
+        """Write a fact in atoms. One that has no normal form yet, for want of another fact, is tried again later."""
         try:
             numerator, denominator = self.field.fraction(expression)
         except Unsettled:
+            self._pending.append((expression, strict))
             return
         below = self.sign_of_factors(denominator)
         if below in ("+", "-") and not numerator.is_zero:
