@@ -617,3 +617,16 @@ def test_what_is_not_defined_has_no_sign_and_no_equal():
     below = on(interval(u, -2, -1))
     assert below.sign(Max(0, sqrt(u))) is None and below.sign(Integral(Max(0, x * sqrt(u)), (x, 0, 1))) is None
     refused(step_on(S.NaN, S.NaN).close, match="not defined")
+
+
+def test_nothing_is_reckoned_with_what_is_infinite():
+    pole = Integral(1 / x, (x, 0, 1))
+    given = claim("infinite", pole, oo)
+    f = Function("f")
+    refused(step_on(f(1 / pole), f(0), claims=[given]).lemma, given, match="infinite")
+    step_on(pole, oo, claims=[given]).lemma(given).close()
+
+
+def test_the_names_of_a_normal_form_are_its_own():
+    typed = Symbol("i#1", integer=True, nonnegative=True)
+    refused(step_on, series((typed - m) * a**m, m), 0, match="names")

@@ -67,6 +67,8 @@ class Proven(Protocol):
 def start(left: Expr, right: Expr, where: Domain) -> Goal:
     """The opening goal: integer variables written by their index, the domain's facts on the table."""
     index = {v.symbol: v.member(v.index) for v in where.variables if isinstance(v, Integers)}
+    hidden = {s for side in (left, right) for s in side.atoms(Symbol) if "#" in s.name}
+    demand(not hidden, lambda: f"{hidden} are names for the variables of a normal form")
     left, right = left.subs(index), right.subs(index)
     conditions = tuple(c.subs(index) for c in where.conditions)
     reals = tuple(v for v in where.variables if isinstance(v, Interval))
@@ -254,6 +256,7 @@ def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr], back: bool = 
         old, new = new, old
     elif not occurs(old, goal.left) and hasattr(old, "definition"):
         old = opened(old)
+    demand(not {old, new} & {oo, -oo} or goal.left == old, "nothing is reckoned with what is infinite")
     demand(occurs(old, goal.left), lambda: f"the side of {proven.id} that is to be replaced, {old}, does not occur")
     for piece in contexts(goal, old):
         for key, value in mapping.items():
