@@ -120,8 +120,8 @@ def longer_than_one(step):
 
 # --- above and below by the angle alone ------------------------------------------------------------------------
 
-rim = sqrt(1 - z**2)
 cone = (1 - alpha_y**2) / (1 + alpha_y**2)  # the cosine at which half the angle has the tangent alpha_y
+widest = 2 * alpha_y / (1 + alpha_y**2)  # the sine there, which no y exceeds
 tangent = (1 - z) / (1 + z)  # squared, of half the angle to the axis
 
 far = project.inequality(
@@ -131,7 +131,7 @@ far = project.inequality(
 
 near = project.inequality(
     "sel-below-near", "within tan(theta / 2) = alpha_y, the ellipsoidal lobe is at most GGX", root_G, root_K,
-    where=[*EITHER, interval(z, cone, 1), interval(y, -rim, rim)],
+    where=[*EITHER, interval(z, cone, 1), interval(y, -widest, widest), SPHERE[2]],
     reading=LARGER + "; by sel-gap the two differ there unless y = 0 or the roughnesses are alike: for two roughnesses "
     "the lobe is no upper bound of GGX, however close they are",
 )  # fmt: skip
@@ -151,7 +151,6 @@ def inside_the_narrower_cone(step):
     step.fact(1 + z, z - cone, 1 + cone)
     ready(step)
     more = (alpha_x - alpha_y) * (alpha_x + alpha_y) / alpha_y**2
-    step.fact(x**2, (rim - y) * (rim + y))
     inside = alpha_x**2 / alpha_y**2 * (1 + alpha_y**2) * (z - cone)
     step.fact(P - U, (U - 1) ** 2 / 2, more * x**2 / 2, inside, more * (1 - z) ** 2 / 2)
     step.fact(slim - thick, -apart)

@@ -55,7 +55,7 @@ upright.proof(by_cases)
 # --- turned ---------------------------------------------------------------------------------------------
 
 a, b, c = symbols("a b c", real=True)
-ANGLES = [interval(angle, -oo, oo) for angle in (a, b, c)]
+ANGLES = [interval(angle, -4, 4) for angle in (a, b, c)]  # more than a turn
 
 # The rows of Q: every rotation has three such angles
 Q = (
