@@ -11,7 +11,8 @@ from sympy import Rational
 from derivations.extensions import ellipsoidal_integral, ellipsoidal_lobe, half_angle
 from derivations.tokuyoshi_harada import ellipsoid, lobe, spheroid
 from xsec_sym.proof.claim import REGISTRY
-from xsec_sym.proof.rules import Refused, start
+from xsec_sym.proof.regular import Refused
+from xsec_sym.proof.rules import start
 from xsec_sym.proof.say import said
 from xsec_sym.proof.steps import Step, derive
 from xsec_sym.proof.verify import verify
