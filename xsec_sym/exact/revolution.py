@@ -17,7 +17,6 @@ from sympy import Dummy, Expr, Integral, Symbol, cos, diff, pi, sin, sqrt
 from xsec_sym.exact.ring import OnTheRing
 from xsec_sym.proof.wire import register
 
-
 X, Y = Symbol("x", real=True), Symbol("y", real=True)
 
 
