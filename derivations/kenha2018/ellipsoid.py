@@ -44,6 +44,7 @@ height = paper.claim(
 def squares_of_a_circle(step):
     """cos^2 + sin^2 = 1."""
 
+
 slope = paper.claim(
     "dzdb.1",
     "the slope of the profile",
