@@ -16,8 +16,8 @@ from sympy import Function, Integral, Matrix, cos, diff, exp, log, oo, pi, sin, 
 
 from derivations.kenha2018.surface import ANGLE, facet_by_angle, on_the_sphere, phi, rate, reflected
 from derivations.kenha2018.surface import normal as mirror_normal
-from xsec_sym.exact import beckmann, ggx
-from xsec_sym.exact.revolution import X, Y, cosine
+from xsec_sym.exact import RingCrossSection, beckmann, ggx
+from xsec_sym.exact.revolution import X, Y, cosine, covered, depth_of
 from xsec_sym.proof import Source, interval
 
 project = Source("xsec", section="mirrors of revolution")
