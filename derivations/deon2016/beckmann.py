@@ -63,7 +63,6 @@ slopes = paper.claim(
     where=[interval(u_i, -1, 1), ROUGH],
     reading=AREA,
     points={p: [u_i / s]},
-    reduces=CLOSED,
 )
 
 

@@ -31,7 +31,7 @@ paper.claim(
     "1 + O(alpha^2 (v^2 + v^4)); as both are at most of the size exp(-v^2) / alpha^2, this is their whole mass",
 )
 
-paper.claim(
+fixed = paper.claim(
     "claim.sg-beckmann-asymptotic.fixed",
     "at a fixed angle off the pole they do not: the ratio goes to infinity as alpha goes to 0",
     left=spherical_gaussian(x, alpha) / beckmann(x, alpha),
@@ -73,17 +73,30 @@ paper.out_of_scope(
     "the spherical Gaussian is the canonical extension of Beckmann's distribution to the sphere",
     because="a choice of words; what can be tested of it is claim.sg-beckmann-asymptotic",
 )
-paper.out_of_scope(
+differ = paper.claim(
     "claim.distributions-differ",
-    "for large roughness the two distributions differ",
-    because="by how much is not said; one is isotropic in the limit (claim.sg-isotropic), the other has no normals "
-    "below the horizon at any roughness",
+    "for large roughness the two distributions differ: at the pole their ratio is 1 / (1 - exp(-2 kappa))",
+    left=spherical_gaussian(1, alpha) / beckmann(1, alpha),
+    printed=1 / mass,
+    where=[interval(alpha, 0, oo, open=True)],
+    statement=True,
+    reading="the ratio grows like alpha^2 / 4 with the roughness, since D_SG goes to 1 / (4 pi) there and D_B to 0; "
+    "below the horizon there is no D_B at any roughness",
 )
+
 paper.out_of_scope(
     "claim.efficient",
     "the approximate forms are efficient, one improvement is easy, others are useful or reasonable",
     because="no cost or criterion is stated; the accuracies are claims of their own, and speed is measured elsewhere",
 )
+
+
+@fixed.proof
+@isotropic.proof
+@differ.proof
+def exponents_collected(step):
+    step.close()
+
 
 conclusion = Source("deon2016", section="3")
 
@@ -98,12 +111,6 @@ conclusion.out_of_scope(
     because="a matter of appearance and taste; that both end in a flat surface and in an isotropic medium is "
     "claim.flat-limit, claim.sg-isotropic and what section 2.4 says of b",
 )
-conclusion.out_of_scope(
-    "claim.only-ellipsoidal",
-    "a simple closed form was found for the ellipsoidal distribution only",
-    because="it tells what the author found; the ellipsoidal form is (27)",
-)
-
 if __name__ == "__main__":
     paper.tell()
     conclusion.tell()

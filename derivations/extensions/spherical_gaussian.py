@@ -1,4 +1,17 @@
-"""The spherical Gaussian's cross-section: a positive integral, one without cancellation, and what follows from them."""
+"""The spherical Gaussian's cross-section: a positive integral, one without cancellation, and what follows from them.
+
+What is closed form here, and what is not. The odd part, the second Dirac component, the second derivative of the even
+part and the values at u = -1, 0 and 1 are elementary or a single Bessel function. What is left of the cross-section is
+one integral, of kappa I_0(kappa tau) - I_1(kappa tau) / tau over t from 0 to u, tau^2 = 1 - t^2. It has a name, but the
+name is a series: the integral of I_0(kappa tau) is 2 / kappa times (L(u) - sinh(kappa) / 2), where L(u) = sum of
+r^(2 m + 1) I_(2 m + 1)(kappa s) with r^2 = (1 + u) / (1 - u) is a Lommel function of two variables with imaginary
+arguments. Both parities of that sum together are exp(kappa) times Marcum's Q function of sqrt(kappa (1 + u)) and
+sqrt(kappa (1 - u)); the odd part alone is not, and the symmetry u -> -u only returns sinh(kappa). Tried without
+success: Legendre's equation by variation of parameters (it leads back to the same integral), reduction to Marcum's Q,
+the generating functions of I_n. No elementary closed form is known to us; none is shown not to exist. The explicit
+series stand in `spherical_gaussian_series.py`: theirs are exact coefficients, and `spherical_gaussian_bounds.py`
+proves how many of them are enough.
+"""
 
 from sympy import (
     Abs,

@@ -1,4 +1,4 @@
-"""A stated accuracy is bounded, not sampled: it holds, it fails by a hair, or it cannot be judged, and the engine knows which."""
+"""A stated accuracy is bounded, not sampled: it holds, fails by a hair, or cannot be judged, and the engine knows."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from xsec_sym.proof.verify import verify
 u, m = symbols("u m", real=True)
 x, y = symbols("x y", positive=True)
 numbers = count()
+THOUSANDTH = Rational(1, 1000)
 
 TAYLOR = m * u - (m * u) ** 3 / 6
 # the error m^5 / 120 - m^7 / 5040 + ... at u = 1 is 0.001 here
@@ -30,7 +31,7 @@ def chart(form, **rest):
     return Chart(x, y, x, y, m, (0, 1), form.subs({u: x, m: y}), even="odd functions both", **rest)
 
 
-def stated(form, end, within=Rational(1, 1000), left=None, printed=None, edit="", **rest):
+def stated(form, end, within=THOUSANDTH, left=None, printed=None, edit="", **rest):
     source = Source(f"test-accuracy-{next(numbers)}")
     accuracy = Accuracy(within, chart(form), Rational(1, 10), end, limit=Limit(Rational(1, 10), y**5 / 100, "a term"))
     build = source.accuracy if printed is None else source.approximation

@@ -14,11 +14,14 @@ from xsec_sym.exact.distributions import (
     ggx,
     spherical_gaussian,
 )
+from xsec_sym.exact.lobes import LobeGGX, ggx_anisotropic
 from xsec_sym.exact.normals import NormalsBeckmann, NormalsGGX, NormalsKagiwadaKalaba
+from xsec_sym.exact.revolution import SpheroidFacets, SpheroidRadius, SpheroidRate, SpheroidSlope
 from xsec_sym.exact.ring import AZIMUTH, RingCrossSection, RingMean, RingSpread, RingTilt, facing
 
 __all__ = [
     "AZIMUTH",
+    "LobeGGX",
     "NormalsBeckmann",
     "NormalsGGX",
     "NormalsKagiwadaKalaba",
@@ -30,6 +33,10 @@ __all__ = [
     "SigmaEllipsoidal",
     "SigmaGGX",
     "SigmaSphericalGaussian",
+    "SpheroidFacets",
+    "SpheroidRadius",
+    "SpheroidRate",
+    "SpheroidSlope",
     "SpreadBeckmann",
     "SpreadEllipsoidal",
     "SpreadGGX",
@@ -38,5 +45,6 @@ __all__ = [
     "ellipsoidal",
     "facing",
     "ggx",
+    "ggx_anisotropic",
     "spherical_gaussian",
 ]

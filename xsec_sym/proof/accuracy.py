@@ -15,9 +15,10 @@ class Chart:
     """Coordinates (x, y) in which the error is smooth: the claim's variables as expressions of them.
 
     ``across`` is the first variable and ``rough`` the second, in terms of x and y; ``y_of`` is y in terms of the
-    second. ``form`` is the approximant in x and y, written so that wide balls stay narrow; it must equal the claim's.
-    ``fine`` names parts of it that depend on y alone, and cancel so much that wide balls are cut up for them.
-    ``even`` says why the error is the same on both sides of 0, where x covers one of them only. ``removable`` is a y at which that form is bounded but its parts are not.
+    second; ``reach`` is the range of x. ``form`` is the approximant in x and y, written so that wide balls stay
+    narrow; it must equal the claim's. ``fine`` names parts of it that depend on y alone, and cancel so much that wide
+    balls are cut up for them. ``even`` says why the error is the same on both sides of 0, where x covers one of them
+    only. ``removable`` is a y at which the form is bounded but its parts are not.
     """
 
     x: Symbol
@@ -55,7 +56,7 @@ class Accuracy:
     """Within ``within`` for the claim's whole domain; its second variable ends at ``end`` on the harder side.
 
     ``by`` is the id of the claim, of the same form and with the same accuracy, that bounds the error, where this one
-    only holds the print against it. ``start`` is where the search begins, in y: past the limit, or at the easy end of the range.
+    only holds the print against it. ``start`` is where the search begins, in y: past the limit, or at the easy end.
     """
 
     within: Expr

@@ -18,6 +18,7 @@ from xsec_sym.proof.suprema import panels
 from xsec_sym.proof.verdict import Verdict
 from xsec_sym.proof.zeros import Undecided
 
+READABLE = 1e6
 MUTANTS = 8  # altered forms that must miss the stated accuracy
 
 
@@ -127,13 +128,12 @@ def _misses(claim: Claim, rival: Expr, found: Found, tolerance: float) -> bool |
 def _worst_of_print(claim: Claim, found: Found) -> tuple[dict[str, Any], arb]:
     assert claim.printed is not None
     error = Error(claim, claim.printed)
-    best, size = None, arb(0)
-    for point in found.points:
-        here = error.at(point)
-        if here.is_finite() and here > size:
-            best, size = point, here
-    if best is None:
+    sizes = [(p, here) for p in found.points if (here := error.at(p)).is_finite()]
+    # a print that grows without bound is shown where a reader can still tell its size
+    readable = [(p, here) for p, here in sizes if here < READABLE] or sizes
+    if not readable:
         raise Unbounded("the print has no value at any of the points")
+    best, size = max(readable, key=lambda pair: float(pair[1].mid()))
     left, right = error.sides(best)
     return {"point": shown(best), "left": left.str(20), "right": right.str(20)}, size
 

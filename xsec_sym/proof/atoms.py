@@ -179,6 +179,9 @@ class Atoms:
             below = self.piece.sign(meaning.base)
             return below if below in ("+", ">=") else None
         if isinstance(meaning, acos):
+            z = meaning.args[0]
+            if not any({*map(self.piece.sign, gaps)} <= {"+", ">=", "0"} for gaps in ((1 - z**2,), (1 - z, 1 + z))):
+                return None  # it need not be real
             return "+" if self.piece.sign(1 - meaning.args[0]) == "+" else ">="
         if isinstance(meaning, log):
             return self.piece.sign(meaning.args[0] - 1)

@@ -37,20 +37,11 @@ from sympy import (
 from sympy.core.function import AppliedUndef
 
 from xsec_sym.proof.ends import end_value, tends_to
-from xsec_sym.proof.piece import Piece, times
-from xsec_sym.proof.rules import (
-    SWITCHES,
-    Goal,
-    Proven,
-    Refused,
-    contexts,
-    continuous_at,
-    demand,
-    lemma,
-    occurs,
-    resolved,
-    smooth,
-)
+from xsec_sym.proof.names import captured, natural, plain
+from xsec_sym.proof.piece import Piece
+from xsec_sym.proof.regular import SWITCHES, Refused, continuous_at, demand, resolved, smooth
+from xsec_sym.proof.rules import Goal, Proven, contexts, lemma, occurs
+from xsec_sym.proof.signs import times
 
 BINDERS = (Integral, Sum)
 TAME = (Symbol, Add, Mul, sin, cos, acos, atan, exp, sinh, cosh, erf, Abs, Heaviside, AppliedUndef)
@@ -60,12 +51,20 @@ def parts(goal: Goal, integral: Integral) -> tuple[Expr, Symbol, Expr, Expr, Pie
     demand(occurs(integral, goal.left), lambda: f"{integral} does not occur")
     demand(len(integral.limits) == 1 and len(integral.limits[0]) == 3, lambda: f"{integral} is not over one interval")
     x, low, high = integral.limits[0]
-    (outer, *_) = contexts(goal, integral)
+    outer = context(goal, integral)
     inside = {
         limit[0] for node in preorder_traversal(integral.function) if isinstance(node, BINDERS) for limit in node.limits
     }
     demand(x not in inside | outer_names(goal, integral), lambda: f"{x} is bound or used twice in {integral}")
     return integral.function, x, low, high, outer, outer.inside(x, low, high)
+
+
+def context(goal: Goal, part: Expr) -> Piece:
+    """The one piece on which a part of the left side stands, however often it stands there."""
+    outer, *others = contexts(goal, part)
+    same = all((p.facts, p.ranges, p.local) == (outer.facts, outer.ranges, outer.local) for p in others)
+    demand(same, lambda: f"{part} stands in two places of which different things are known")
+    return outer
 
 
 def iterated(goal: Goal, integral: Integral) -> tuple[Expr, Integral, Symbol, Expr, Expr, Piece, Piece]:
@@ -77,7 +76,7 @@ def iterated(goal: Goal, integral: Integral) -> tuple[Expr, Integral, Symbol, Ex
         demand(occurs(integral, goal.left), lambda: f"{integral} does not occur")
         first, (x, low, high) = integral.limits
         outside, rest = S.One, Integral(integral.function, first)
-        (outer, *_) = contexts(goal, integral)
+        outer = context(goal, integral)
         demand(x not in outer_names(goal, integral) | {first[0]}, lambda: f"{x} is bound or used twice in {integral}")
         inner = outer.inside(x, low, high)
     else:
@@ -127,11 +126,13 @@ def branch(f: Expr, x: Symbol, a: Expr, b: Expr, outer: Piece) -> Expr:
         for node in f.atoms(*SWITCHES):
             for g in node.atoms(Expr) & set(_arguments(node)):
                 if g.has(x) and inner.sign(g) not in ("+", "-"):
+                    smooth(g, x, inner)  # or it may jump, and its slope tells nothing
                     slope = inner.sign(diff(g, x))
-                    if slope in ("+", "-") and outer.is_zero(g.subs(x, a)):
-                        learned.append((g if slope == "+" else -g, True))
-                    elif slope in ("+", "-") and outer.is_zero(g.subs(x, b)):
-                        learned.append((-g if slope == "+" else g, True))
+                    for end, rises in ((a, "+"), (b, "-")):
+                        if slope in ("+", "-") and outer.is_zero(g.subs(x, end)):
+                            continuous_at(g, x, end, outer)
+                            learned.append((g if slope == rises else -g, True))
+                            break
         if not learned:
             raise
         return resolved(f, inner.extended(learned))
@@ -169,7 +170,9 @@ def bounded(e: Expr, x: Symbol, inner: Piece) -> bool:
         if isinstance(node, besseli) and node.args[0].is_integer:
             continue
         if isinstance(node, hyper) and len(node.args[0]) == 0:
-            continue
+            if all(b.is_integer and b.is_positive for b in node.args[1]):
+                continue
+            return False
         if isinstance(node, Pow) and node.exp.is_integer and inner.sign(node.base - 1) in ("+", ">="):
             continue
         return False
@@ -205,6 +208,8 @@ def substitute(goal: Goal, integral: Integral, new: Symbol, g: Expr, low: Expr, 
     f, x, a, b, outer, _ = parts(goal, integral)
     used = integral.atoms(Symbol) | outer_names(goal, integral) | goal.right.free_symbols
     demand(new not in used, lambda: f"{new} already stands for something else")
+    demand(plain(new), lambda: f"{new} is not a plain real variable")
+    demand(not captured([f], g), lambda: f"{g} would be captured by {f}")
     rising = outer.order(low, high) in ("+", ">=", "0")
     inner = outer.inside(new, *((low, high) if rising else (high, low)))
     smooth(g, new, inner)
@@ -280,7 +285,7 @@ def recurrence(
     derivative of ``primitive``, and ``closed`` satisfies the recurrence that this gives.
     """
     f, x, low, high, outer, inner = parts(goal, integral)
-    demand(index.is_integer and index.is_nonnegative, lambda: f"{index} does not run over 0, 1, 2, ...")
+    demand(natural(index), lambda: f"{index} does not run over 0, 1, 2, ...")
     demand(not (low.has(index) or high.has(index)), "the limits depend on the index")
     demand(not any(e.has(index) for e, _ in outer.facts), "what is known of the index need not hold for the next one")
     first = difference(f.subs(index, 0), base, x, low, high, outer)
@@ -302,10 +307,14 @@ def telescope(goal: Goal, total: Sum, primitive: Expr) -> list[Goal]:
     demand(occurs(total, goal.left), lambda: f"{total} does not occur")
     demand(len(total.limits) == 1, lambda: f"{total} is not over one index")
     j, low, high = total.limits[0]
+    demand(bool((high - low + 1).is_nonnegative), lambda: f"{total} may run backwards")
     gap = total.function - (primitive - primitive.subs(j, j - 1))
-    demand(not goal.piece.facts_about(j), lambda: f"{j} is used twice")
-    here = goal.piece.extended([(j - low, False)])
-    demand(here.is_zero(gap), lambda: f"{total.function} is not the difference of {primitive}")
+    demand(not {low, high} & {oo, -oo}, "a sum without an end has no last term")
+    demand(not captured([primitive], low, high), lambda: f"{primitive} would capture an end of the sum")
+    for piece in contexts(goal, total):
+        demand(not piece.facts_about(j), lambda: f"{j} is used twice")
+        here = piece.extended([(j - low, False)])
+        demand(here.is_zero(gap), lambda: f"{total.function} is not the difference of {primitive}")
     value = primitive.subs(j, high) - primitive.subs(j, low - 1)
     return [goal.with_left(goal.left.xreplace({total: value}))]
 

@@ -11,10 +11,11 @@ from typing import Any
 
 from sympy import Symbol
 
-from xsec_sym.proof import calculus, plane, rules, sphere, wire
+from xsec_sym.proof import calculus, induction, plane, rules, sphere, wire
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.field import Unsettled
-from xsec_sym.proof.rules import Goal, Refused
+from xsec_sym.proof.regular import Refused
+from xsec_sym.proof.rules import Goal
 
 MOVES: dict[str, Callable[..., list[Goal]]] = {
     move.__name__: move
@@ -30,8 +31,8 @@ MOVES: dict[str, Callable[..., list[Goal]]] = {
         rules.close,
         rules.lemma,
         rules.ode,
-        rules.induct,
-        rules.dominate,
+        induction.induct,
+        induction.dominate,
         calculus.split,
         calculus.extend,
         calculus.linear,

@@ -33,7 +33,7 @@ from sympy import (
 )
 
 from xsec_sym.proof.piece import Piece
-from xsec_sym.proof.rules import Refused, continuous_at, demand
+from xsec_sym.proof.regular import Refused, continuous_at, demand
 from xsec_sym.proof.say import said
 
 

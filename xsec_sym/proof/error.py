@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import reduce
 from itertools import pairwise
 from math import floor, log10
 from typing import Any
@@ -117,12 +118,8 @@ def _finely(run: Any) -> Any:
             kept[key] = run((z,), analytic)
         if key not in kept:
             across, up = (_cut(part) for part in (z.real, z.imag))
-            found = None
-            for a in across:
-                for b in up:
-                    here = run((acb(a, b),), analytic)
-                    found = here if found is None else found.union(here)
-            kept[key] = found
+            pieces = [run((acb(a, b),), analytic) for a in across for b in up]
+            kept[key] = reduce(acb.union, pieces)
         return kept[key]
 
     return at

@@ -8,7 +8,7 @@ from sympy import Integer, Rational, S, Symbol, oo, sympify
 
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.domain import Interval
-from xsec_sym.proof.rules import Refused
+from xsec_sym.proof.regular import Refused
 from xsec_sym.proof.steps import Step, derive
 from xsec_sym.proof.verdict import Verdict
 from xsec_sym.proof.verify import verify

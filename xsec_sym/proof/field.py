@@ -51,7 +51,6 @@ from sympy import (
     log,
     oo,
     pi,
-    preorder_traversal,
     sign,
     sin,
     sinh,
@@ -63,8 +62,10 @@ from sympy.core.function import AppliedUndef
 from xsec_sym.proof import bessel
 from xsec_sym.proof.atoms import Atoms, Unsettled
 from xsec_sym.proof.legendre import atomised as legendre_normal
+from xsec_sym.proof.names import captured
+from xsec_sym.proof.shapes import bounded, hidden_name, paired, split_exponent
 
-_HYPERBOLIC = (sinh, cosh, tanh, coth, csch, tan)
+_HYPERBOLIC = (sinh, cosh, tanh, coth, csch)
 
 
 class Field(Atoms):
@@ -80,6 +81,8 @@ class Field(Atoms):
     def _atomise(self, e: Expr) -> Expr:
         if e.is_Float:
             raise Unsettled(f"{e} is a float, and no proof rests on floats")
+        if e in (oo, -oo, S.ComplexInfinity, S.NaN):
+            raise Unsettled(f"{e} is not a number")
         if e is S.ImaginaryUnit or (e.is_Symbol and not e.is_real):
             raise Unsettled(f"{e} is not known to be real")
         if e.is_Rational or e.is_Symbol:
@@ -107,10 +110,16 @@ class Field(Atoms):
             z = e.args[0]
             return self.atomise(log((1 + z) / (1 - z)) / 2)
         if isinstance(e, _HYPERBOLIC):
-            return self.atomise(e.rewrite(sin if isinstance(e, tan) else exp))
+            return self.atomise(e.rewrite(exp))
+        if isinstance(e, tan):
+            return self.atomise(sin(e.args[0]) / cos(e.args[0]))  # SymPy's own rewriting brings in the double angle
         if isinstance(e, asin):
             return self.atomise(pi / 2 - acos(e.args[0]))
         if isinstance(e, acos):
+            z = e.args[0]
+            signs = ({*map(self.piece.sign, gaps)} for gaps in ((1 - z**2,), (1 - z, 1 + z)))
+            if not any(found <= {"+", ">=", "0"} for found in signs):
+                raise Unsettled(f"{e} may leave the range of the inverse")
             return self._mirrored(e, lambda other: self.atomise(pi) - other)
         if isinstance(e, atan | erf | sin):
             return self._mirrored(e, lambda other: -other)
@@ -130,7 +139,7 @@ class Field(Atoms):
             return self._exponential(Integer(1))
         if e.is_number and e.is_Atom:
             return self._atom("c", e)
-        if hasattr(e, "definition") or e.func.is_Function:
+        if hasattr(e, "definition") or isinstance(e, AppliedUndef):
             return self._atom("f", e.func(*(self._argument(a) for a in e.args)))
         raise Unsettled(f"{e.func.__name__} has no normal form here")
 
@@ -236,7 +245,7 @@ class Field(Atoms):
             return self.atomise(base) ** exponent
         if base is S.Exp1:
             return self._exponential(exponent)
-        fixed, moving = _split_exponent(exponent)
+        fixed, moving = split_exponent(exponent)
         constant, factors = self._factors(base)
         if constant == 0 or any(f.is_zero for f, _ in factors):
             if self.piece.sign(exponent) == "+":
@@ -276,7 +285,7 @@ class Field(Atoms):
         result: Expr = S.One
         total = 1 if constant > 0 else -1
         unknown: list[tuple[Poly, int]] = []
-        for f, k in _paired(factors):
+        for f, k in paired(factors):
             here = self.piece.sign_of_factors(f)
             if here in ("+", ">="):
                 result *= self._radical(f.as_expr(), k * power)
@@ -368,7 +377,7 @@ class Field(Atoms):
         e = e.expand()
         if e.is_integer and self.piece.sign(e) != "+":
             raise Unsettled(f"gamma({e}) may have a pole")
-        fixed, moving = _split_exponent(e)
+        fixed, moving = split_exponent(e)
         if not moving:
             value = gamma(fixed)
             return value if value.is_Rational else self._atom("c", value) if value.is_Atom else self.atomise(value)
@@ -398,9 +407,10 @@ class Field(Atoms):
         constant, factors = bottom.factor_list()
         outside = Mul(constant, *(f.as_expr() ** k for f, k in factors if not f.free_symbols & moving))
         inside = Mul(*(f.as_expr() ** k for f, k in factors if f.free_symbols & moving))
-        hidden = Symbol(_hidden("x", e), real=True)
-        limits = (hidden, self._argument(low), self._argument(high))
-        if (len(top.terms()) > 1 and not all(_bounded(inner.meaning.get(a, a)) for a in moving)) or inside != 1:
+        hidden = Symbol(hidden_name("x", e), real=True)
+        limits = (hidden, *(end if end in (oo, -oo) else self._argument(end) for end in (low, high)))
+        tame = not {low, high} & {oo, -oo} and all(bounded(inner.meaning.get(a, a)) for a in moving)
+        if (len(top.terms()) > 1 and not tame) or inside != 1:
             # term by term the integral might not exist: such an integrand stays whole, but for factors without x
             drawn, factors = top.factor_list()
             whole = Mul(*(f.as_expr() ** k for f, k in factors if f.free_symbols & moving))
@@ -426,11 +436,18 @@ class Field(Atoms):
         if len(e.limits) != 1:
             raise Unsettled("only a single sum is an atom")
         j, low, high = e.limits[0]
+        if captured([e.function], low, high) or low.has(j) or high.has(j) or {low, high} & {-oo}:
+            raise Unsettled(f"the limits of {e} share a name with its terms, or it has no beginning")
+        if not (high == oo or (high - low + 1).is_nonnegative):
+            raise Unsettled(f"{e} may run backwards")
+        plain = Symbol(hidden_name("i", e), integer=True, nonnegative=True if low.is_nonnegative else None)
+        function = e.function.subs(j, plain)  # of the index nothing else is known, whatever its name is
+        e, j = Sum(function, (plain, low, high)), plain
         if high == oo:
             return self._summed(e.function.subs(j, j + low), j, S.Zero, oo)
-        if (high - low).is_Integer:
-            return self.atomise(e.doit())
-        fixed, moving = _split_exponent(high)
+        if (high - low).is_Integer and high - low >= -1:
+            return Add(*(self.atomise(e.function.subs(j, low + i)) for i in range(int(high - low) + 1)))
+        fixed, moving = split_exponent(high)
         if not moving or not fixed.is_Integer or not low.is_Integer:
             raise Unsettled(f"the limits of {e} are not integers with one moving end")
         top = high - fixed
@@ -454,55 +471,9 @@ class Field(Atoms):
                     kept *= f.as_expr() ** (side * k)
                 else:
                     fixed *= f.as_expr() ** (side * k)
-        name = _hidden("j", Sum(term, (j, low, high)))
+        name = hidden_name("j", Sum(term, (j, low, high)))
         hidden = Symbol(name, integer=True, nonnegative=True if low >= 0 else None)
         return fixed * self._atom("sum", Sum(self._meant(kept).xreplace({j: hidden}), (hidden, low, high)))
-
-
-def _hidden(letter: str, e: Expr) -> str:
-    """A name for a bound variable that no bound variable inside has, and that nobody types."""
-    depth = sum(1 for node in preorder_traversal(e) if isinstance(node, Integral | Sum))
-    return f"{letter}#{depth}"
-
-
-def _bounded(atom: Expr) -> bool:
-    """Atoms that stay bounded, or are integrable by hypothesis, between finite limits."""
-    if isinstance(atom, Pow):
-        return bool(atom.exp.is_nonnegative) and _bounded(atom.base)
-    if isinstance(atom, Add | Mul):
-        return all(_bounded(a) for a in atom.args)
-    tame = Symbol, cos, sin, acos, atan, Abs, Heaviside, AppliedUndef
-    return atom.is_number or isinstance(atom, tame) or hasattr(atom, "definition")
-
-
-def _paired(factors: list[tuple[Poly, int]]) -> list[tuple[Poly, int]]:
-    """Factors f(x) and f(-x) of one multiplicity brought together: 1 - x^2 rather than 1 - x and 1 + x."""
-    left, found = list(factors), []
-    while left:
-        f, k = left.pop(0)
-        mirror = Poly(f.as_expr().subs({g: -g for g in f.free_symbols}, simultaneous=True), *f.gens, domain="QQ")
-        for other, j in left:
-            if j == k and (other == mirror or other == -mirror):
-                left.remove((other, j))
-                f = f * other
-                break
-        found.append((f, k))
-    return found
-
-
-def _split_exponent(e: Expr) -> tuple[Rational, dict[Symbol, int]]:
-    """An exponent as rational + sum of integer multiples of integer symbols."""
-    e = e.expand()
-    fixed, moving = S.Zero, {}
-    for term in Add.make_args(e):
-        if term.is_Rational:
-            fixed += term
-            continue
-        coefficient, rest = term.as_coeff_Mul()
-        if not (rest.is_Symbol and rest.is_integer and coefficient.is_Integer):
-            raise Unsettled(f"{e} is not an integer combination of integer symbols")
-        moving[rest] = int(coefficient)
-    return fixed, moving
 
 
 __all__ = ["Field", "Unsettled"]

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from xsec_sym.proof.verdict import Verdict
 
 MEMORY = 4 << 30
-SECONDS = 120.0
+SECONDS = 240.0
 
 
 @dataclass(frozen=True)

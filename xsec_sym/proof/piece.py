@@ -16,11 +16,7 @@ from sympy import (
     And,
     Eq,
     Expr,
-    Ge,
-    Gt,
     Integral,
-    Le,
-    Lt,
     Max,
     Mul,
     Ne,
@@ -32,7 +28,6 @@ from sympy import (
     S,
     Symbol,
     besseli,
-    exp,
     oo,
     pi,
     sympify,
@@ -40,35 +35,10 @@ from sympy import (
 
 from xsec_sym.proof.domain import Choices, Domain, Integers, Interval
 from xsec_sym.proof.field import Field, Unsettled
+from xsec_sym.proof.signs import FLIP, Sign, both_sides, difference_of_exponentials, plus, relation_facts, times
 
 Terms = dict[tuple[tuple[Symbol, int], ...], Fraction]  # monomial -> coefficient, a monomial as (atom, power) pairs
 Fact = tuple[Expr, bool]
-Sign = str | None  # "+", "-", "0", ">=" (not negative), "<=" (not positive), None: unknown
-FLIP: dict[Sign, Sign] = {"+": "-", "-": "+", "0": "0", ">=": "<=", "<=": ">=", None: None}
-
-
-def times(a: Sign, b: Sign) -> Sign:
-    if "0" in (a, b):
-        return "0"
-    if a is None or b is None:
-        return None
-    strict = a in "+-" and b in "+-"
-    positive = (a in ("+", ">=")) == (b in ("+", ">="))
-    return ("+" if positive else "-") if strict else (">=" if positive else "<=")
-
-
-def plus(a: Sign, b: Sign) -> Sign:
-    if a == "0":
-        return b
-    if b == "0":
-        return a
-    if a is None or b is None:
-        return None
-    up_a, up_b = a in ("+", ">="), b in ("+", ">=")
-    if up_a != up_b:
-        return None
-    strict = a in "+-" or b in "+-"
-    return ("+" if strict else ">=") if up_a else ("-" if strict else "<=")
 
 
 def terms_of(polynomial: Poly) -> Terms:
@@ -105,17 +75,22 @@ class Piece:
         ranges: Iterable[Interval] = (),
         local: Iterable[tuple[tuple[Any, ...], Fact]] = (),
         parent: Piece | None = None,
+        shown: Iterable[Fact] = (),
     ) -> None:
         self.facts: tuple[Fact, ...] = tuple((sympify(e), strict) for e, strict in facts)
         self.ranges = tuple(ranges)
         self.local = tuple(local)  # facts that hold between the limits of one integral only: ((x, low, high), fact)
+        # facts that follow from the others: of a name of which those say nothing, they hold whatever it stands for
+        self.shown: frozenset[Fact] = frozenset(shown) | (parent.shown if parent else frozenset())
         self.field: Field = Field(self, parent.field if parent else None)
         self.known: list[tuple[Terms, bool]] = list(parent.known) if parent else []
         self._signs: dict[Expr, Sign] = dict(parent._signs) if parent else {}
         self._polynomial_signs: dict[frozenset[Any], Sign] = dict(parent._polynomial_signs) if parent else {}
         self._products: list[tuple[Terms, bool]] | None = None
+        self._pending: list[Fact] = []
         self._inner: dict[Any, Piece] = {}
-        for expression, strict in self.facts[len(parent.facts) if parent else 0 :]:
+        waiting, self._pending = (list(parent._pending) if parent else []), []
+        for expression, strict in [*self.facts[len(parent.facts) if parent else 0 :], *waiting]:
             self._learn(expression, strict)
 
     @classmethod
@@ -134,6 +109,11 @@ class Piece:
     def extended(self, facts: Iterable[Fact], ranges: Iterable[Interval] = ()) -> Piece:
         return Piece((*self.facts, *facts), (*self.ranges, *ranges), self.local, self)
 
+    def showing(self, facts: Iterable[Fact]) -> Piece:
+        """The piece with facts that were shown on it, not assumed."""
+        new = [fact for fact in facts if fact not in self.facts]
+        return Piece((*self.facts, *new), self.ranges, self.local, self, new)
+
     def inside(self, x: Symbol, low: Expr, high: Expr) -> Piece:
         """The piece with an integration variable strictly between its limits."""
         inner = Interval(x, sympify(low), sympify(high), True, True)
@@ -144,10 +124,14 @@ class Piece:
 
     def _between(self, inner: Interval, limits: tuple[Any, ...]) -> Piece:
         x, low, high = limits
-        if any(e.has(x) for e, _ in self.facts):
+        local = tuple((where, fact) for where, fact in self.local if not _speaks_of(x, where, fact))
+        if len(local) < len(self.local) or any(e.has(x) for e, _ in self.facts):
             # the bound variable only shares its name with one that is free here: nothing known of that one holds
             apart = [fact for fact in self.facts if not fact[0].has(x)]
-            return Piece(apart, [r for r in self.ranges if r.symbol != x], self.local)._between(inner, limits)
+            ranges = [r for r in self.ranges if r.symbol != x]
+            return Piece(apart, ranges, local, shown=self.shown & {*apart})._between(inner, limits)
+        if low.has(x) or high.has(x):
+            return self  # the limits speak of another variable of that name
         order = self.order(low, high)
         if order == "-":
             inner = Interval(x, high, low, True, True)
@@ -165,7 +149,7 @@ class Piece:
         here = [
             (tuple(a.subs(symbol, value) for a in limits), (f[0].subs(symbol, value), f[1]))
             for limits, f in self.local
-            if symbol not in limits
+            if symbol not in limits and not value.has(limits[0])
         ]
         return Piece(
             [f for f in facts if f[0].free_symbols or not f[0].is_positive],
@@ -178,7 +162,8 @@ class Piece:
         return Piece(self.facts[:index] + self.facts[index + 1 :], self.ranges, self.local)
 
     def facts_about(self, symbol: Symbol) -> bool:
-        return any(e.has(symbol) for e, _ in self.facts)
+        """Whether something is assumed of a symbol."""
+        return any(fact[0].has(symbol) for fact in self.facts if fact not in self.shown)
 
     # --- zero --------------------------------------------------------------------------------------
 
@@ -225,15 +210,15 @@ class Piece:
             return _constant_sign(expression)
         if isinstance(expression, Max):
             above = {self.sign(a) for a in expression.args}
-            if above & {"+", ">=", "0"}:
+            if above & {"+", ">=", "0"} and all(self._real(a) for a in expression.args):
                 return "+" if "+" in above else ">="
         if isinstance(expression, Piecewise):
             return self._sign_of_branches(expression)
         if expression.is_Add and len(expression.args) == 2:
-            powers = _difference_of_exponentials(*expression.args)
-            if powers is not None and self.sign(powers[0] - powers[1]) is not None:
+            powers = difference_of_exponentials(*expression.args)
+            if powers is not None and self._real(expression) and self.sign(powers[0] - powers[1]) is not None:
                 return self.sign(powers[0] - powers[1])  # the exponential is increasing
-        if isinstance(expression, besseli) and expression.args[0].is_integer:
+        if isinstance(expression, besseli) and expression.args[0].is_integer and self._real(expression.args[1]):
             known = self.field.sign_of_bessel(*expression.args)  # before it is written by its neighbours
             if known is not None:
                 return known
@@ -255,12 +240,20 @@ class Piece:
             return ">="  # whatever has a normal form is real, and its even powers are not negative
         return found
 
+    def _real(self, expression: Expr) -> bool:
+        """Whatever has a normal form is real."""
+        try:
+            self.field.fraction(expression)
+        except Unsettled:
+            return False
+        return True
+
     def _sign_of_branches(self, e: Piecewise) -> Sign:
         """The sign that all branches share, each judged where its condition holds."""
         found: set[Sign] = set()
         for value, condition in e.args:
             facts = relation_facts(condition)
-            for (gap, strict), (big, small) in zip(facts, _both_sides(condition), strict=True):
+            for (gap, strict), (big, small) in zip(facts, both_sides(condition), strict=True):
                 if self.sign(big) in ("+", ">=") and self.sign(small) in ("+", ">="):
                     facts = [*facts, (gap * (big + small), strict)]
             found.add(self.extended([(f.expand(), strict) for f, strict in facts]).sign(value))
@@ -397,9 +390,11 @@ class Piece:
         return self._products
 
     def _learn(self, expression: Expr, strict: bool) -> None:
+        """Write a fact in atoms. One that has no normal form yet, for want of another fact, is tried again later."""
         try:
             numerator, denominator = self.field.fraction(expression)
         except Unsettled:
+            self._pending.append((expression, strict))
             return
         below = self.sign_of_factors(denominator)
         if below in ("+", "-") and not numerator.is_zero:
@@ -457,35 +452,10 @@ class Piece:
         return None
 
 
-def relation_facts(condition: Expr) -> list[tuple[Expr, bool]]:
-    """What an inequality says, as (expression, strict); other conditions say nothing usable."""
-    if isinstance(condition, And):
-        return [fact for c in condition.args for fact in relation_facts(c)]
-    if isinstance(condition, Gt | Ge):
-        return [(condition.lhs - condition.rhs, isinstance(condition, Gt))]
-    if isinstance(condition, Lt | Le):
-        return [(condition.rhs - condition.lhs, isinstance(condition, Lt))]
-    return []
-
-
-def _both_sides(condition: Expr) -> list[tuple[Expr, Expr]]:
-    """The larger and the smaller side of each inequality in a condition."""
-    if isinstance(condition, And):
-        return [pair for c in condition.args for pair in _both_sides(c)]
-    if isinstance(condition, Gt | Ge):
-        return [(condition.lhs, condition.rhs)]
-    return [(condition.rhs, condition.lhs)] if isinstance(condition, Lt | Le) else []
-
-
-def _difference_of_exponentials(first: Expr, second: Expr) -> tuple[Expr, Expr] | None:
-    """(a, b) where the two terms are exp(a) and -exp(b), 1 being exp(0)."""
-    exponents: dict[int, Expr] = {}
-    for term in (first, second):
-        side, rest = term.as_coeff_Mul()
-        if side not in (1, -1) or not (rest == 1 or isinstance(rest, exp)):
-            return None
-        exponents[int(side)] = S.Zero if rest == 1 else rest.args[0]
-    return (exponents[1], exponents[-1]) if len(exponents) == 2 else None
+def _speaks_of(x: Symbol, where: tuple[Any, ...], fact: Fact) -> bool:
+    """Whether a fact about an integrand over another variable says something of x, which is free in it."""
+    y, low, high = where
+    return low.has(x) or high.has(x) or (y != x and fact[0].has(x))
 
 
 def _constant_sign(expression: Expr) -> Sign:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from sympy import Integral, Sum, Symbol, cos, oo, pi, sin
 
 from xsec_sym.proof.calculus import iterated, outer_names
-from xsec_sym.proof.rules import Goal, demand
+from xsec_sym.proof.names import plain
+from xsec_sym.proof.regular import demand
+from xsec_sym.proof.rules import Goal
 
 
 def polar(goal: Goal, integral: Integral, radius: Symbol, azimuth: Symbol) -> list[Goal]:
@@ -20,7 +22,7 @@ def polar(goal: Goal, integral: Integral, radius: Symbol, azimuth: Symbol) -> li
     demand(not integrand.has(Integral, Sum), "an integral or a sum is left in the integrand")
     used = integral.atoms(Symbol) | outer_names(goal, integral) | goal.right.free_symbols
     demand(radius != azimuth and not {radius, azimuth} & used, "the new variables already stand for something else")
-    demand(bool(radius.is_real and azimuth.is_real), "the new variables are not known to be real")
+    demand(plain(radius, azimuth), "the new variables are not plain real ones")
     shown = inner.inside(p, a, b).sign(integrand)
     demand(shown in ("+", ">=", "-", "<=", "0"), "the integrand is not shown to keep one sign")
     turned = radius * integrand.xreplace({p: radius * cos(azimuth), q: radius * sin(azimuth)})

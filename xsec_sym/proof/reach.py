@@ -38,7 +38,7 @@ from xsec_sym.proof.suprema import BITS, Panel, Surface, panels
 from xsec_sym.proof.tried import tried
 
 LOOSE, SHARP = 0.3, 1e-4  # how wrong an interpolant may be, per tolerance: far from the end, and next to it
-STEP = 1.2  # from one strip of the roughness range to the next
+STEP = 1.25  # from one strip of the roughness range to the next
 FIRST = 0.5  # the first strip where the range begins at y = 0
 FARTHEST = 400  # strips
 
@@ -143,6 +143,10 @@ def searched(claim: Claim, spec: Accuracy, claims: Mapping[str, Claim]) -> Found
         raise Unbounded("no point was found that breaks the tolerance")
     size = error.at(worst)
     words = [part.because for part in (spec.tail, spec.limit) if part] + [chart.even] * bool(chart.even)
+    if chart.removable is not None:
+        words.append(
+            f"at {chart.y} = {chart.removable:g} the poles of the parts cancel, since the form is bounded there"
+        )
     first = float(spec.start)
     evidence = {
         "within": decimal(spec.within),
@@ -164,19 +168,25 @@ def searched(claim: Claim, spec: Accuracy, claims: Mapping[str, Claim]) -> Found
 
 def _strips(claim: Claim, spec: Accuracy, tolerance: float, y_end: float) -> list[Strip]:
     f = surface(claim, spec.chart)
-    reach = (float(spec.chart.reach[0]), float(spec.chart.reach[1]))
     strips: list[Strip] = []
     low = float(spec.start)
     while True:
         high = low * STEP if low > 0 else FIRST
         sharp = (bool(strips) and strips[-1].peak > tolerance / 3) or low <= y_end <= high
-        made = list(panels(f, reach, (low, high), tolerance * (SHARP if sharp else LOOSE)))
-        strips.append(Strip(low, high, made, _beyond(spec, f, (low, high), tolerance * (SHARP if sharp else LOOSE))))
+        strip = _strip(spec, f, (low, high), tolerance * (SHARP if sharp else LOOSE))
+        if not sharp and strip.peak > tolerance / 2:
+            strip = _strip(spec, f, (low, high), tolerance * SHARP)
+        strips.append(strip)
         low = high
         if high > y_end and strips[-1].peak > 1.02 * tolerance:
             return strips
         if len(strips) > FARTHEST:
             raise Unbounded("the error stays below the tolerance as far as was searched")
+
+
+def _strip(spec: Accuracy, f: Surface, y: tuple[float, float], error: float) -> Strip:
+    reach = (float(spec.chart.reach[0]), float(spec.chart.reach[1]))
+    return Strip(*y, list(panels(f, reach, y, error)), _beyond(spec, f, y, error))
 
 
 def _beyond(spec: Accuracy, f: Surface, y: tuple[float, float], error: float) -> Beyond | None:

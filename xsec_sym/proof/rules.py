@@ -6,65 +6,33 @@ looks at a float. Everything here is decided by `Piece.sign` and `Piece.is_zero`
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from sympy import (
-    Abs,
     Add,
+    Derivative,
     Expr,
-    Heaviside,
     Integral,
-    Max,
-    Min,
-    Mul,
-    Number,
-    NumberSymbol,
-    Piecewise,
-    Pow,
+    Lambda,
+    Limit,
+    Subs,
     Sum,
     Symbol,
-    Tuple,
-    acos,
-    asin,
-    atan,
-    atanh,
-    besseli,
-    binomial,
-    cos,
-    cosh,
-    coth,
-    csch,
     diff,
-    erf,
-    exp,
-    factorial,
-    gamma,
-    hyper,
-    legendre,
-    log,
+    nan,
     oo,
     preorder_traversal,
-    sign,
-    sin,
-    sinh,
-    tanh,
 )
+from sympy.concrete.expr_with_limits import ExprWithLimits
 from sympy.logic.boolalg import Boolean
 
 from xsec_sym.proof.domain import Choices, Domain, Integers, Interval
-from xsec_sym.proof.field import Unsettled
-from xsec_sym.proof.magnitude import Magnitude
-from xsec_sym.proof.piece import Piece, plus
-from xsec_sym.proof.say import said
-
-ENTIRE = (Add, Mul, Pow, Symbol, Number, NumberSymbol, exp, sin, cos, sinh, cosh, tanh, atan, erf)
-SWITCHES = (Abs, Heaviside, Max, Min, Piecewise, sign)
-
-
-class Refused(Exception):
-    """A step that does not follow, with the reason as a sentence."""
+from xsec_sym.proof.names import captured, keeps_to, natural
+from xsec_sym.proof.piece import Piece
+from xsec_sym.proof.regular import connected, demand, resolved, smooth
+from xsec_sym.proof.signs import plus
 
 
 @dataclass(frozen=True)
@@ -74,6 +42,7 @@ class Goal:
     piece: Piece
     conditions: tuple[Boolean, ...] = ()
     doubtful: bool = False  # a sum was split into integrals that may not exist: all must be given values
+    absolute: frozenset[Sum] = frozenset()  # sums that converge absolutely, by the move that made them
 
     def with_left(self, left: Expr) -> Goal:
         # SymPy folds a Piecewise out of nested integrals together with the inner variable: that is not the same thing
@@ -92,18 +61,14 @@ class Proven(Protocol):
     def form(self) -> Expr: ...
 
 
-def demand(truth: bool, sentence: str | Callable[[], str]) -> None:
-    """The sentence may wait until it is needed: writing out an expression costs more than most checks."""
-    if not truth:
-        raise Refused(sentence if isinstance(sentence, str) else sentence())
-
-
 # --- the pieces of a domain ---------------------------------------------------------------------------
 
 
 def start(left: Expr, right: Expr, where: Domain) -> Goal:
     """The opening goal: integer variables written by their index, the domain's facts on the table."""
     index = {v.symbol: v.member(v.index) for v in where.variables if isinstance(v, Integers)}
+    hidden = {s for side in (left, right) for s in side.atoms(Symbol) if "#" in s.name}
+    demand(not hidden, lambda: f"{hidden} are names for the variables of a normal form")
     left, right = left.subs(index), right.subs(index)
     conditions = tuple(c.subs(index) for c in where.conditions)
     reals = tuple(v for v in where.variables if isinstance(v, Interval))
@@ -116,6 +81,9 @@ def cases(goal: Goal, on: Expr, symbol: Symbol, root: Expr, slope: Expr) -> list
     below = replace(goal, piece=goal.piece.extended([(-on, True)]))
     demand(goal.piece.is_zero(on - slope * (symbol - root)), lambda: f"{on} is not a multiple of {symbol - root}")
     demand(goal.piece.sign(slope) in ("+", "-"), lambda: f"{on} may vanish elsewhere than at {symbol} = {root}")
+
+    sides = (goal.left, goal.right, *goal.conditions, *(e for e, _ in goal.piece.facts))
+    demand(not captured(sides, root), lambda: f"{root} would be captured by an integral or a sum")
 
     def at_root(e: Expr) -> Expr:
         return e.subs(symbol, root)
@@ -170,7 +138,7 @@ def fact(
         here = plus(here, piece.sign(term))
     demand(here in ("+", "-", ">=", "<="), lambda: f"the signs of {terms} do not show, or differ")
     new = (expression if here in ("+", ">=") else -expression, here in ("+", "-"))
-    piece = goal.piece.noting(tuple(inner), new) if inner else goal.piece.extended([new])
+    piece = goal.piece.noting(tuple(inner), new) if inner else goal.piece.showing([new])
     return [replace(goal, piece=piece)]
 
 
@@ -230,7 +198,20 @@ def rewrite(goal: Goal, old: Expr, new: Expr) -> list[Goal]:
     demand(occurs(old, goal.left), lambda: f"{old} does not occur")
     for piece in contexts(goal, old):
         demand(piece.is_zero(old - new), lambda: f"{old} and {new} are not shown to be equal")
+        demand(_unvalued(new, piece) <= _unvalued(old, piece), lambda: f"{new} brings in what may have no value")
     return [goal.with_left(goal.left.xreplace({old: new}))]
+
+
+def _unvalued(e: Expr, piece: Piece) -> set[Symbol]:
+    """The atoms of the integrals and sums in an expression, those that cancel in it included."""
+    found: set[Symbol] = set()
+    walk = preorder_traversal(e)
+    for node in walk:
+        if isinstance(node, Integral | Sum):
+            walk.skip()
+            atoms = piece.field.atomise(node).free_symbols
+            found |= {a for a in atoms if piece.field.meaning.get(a, a).has(Integral, Sum)}
+    return found
 
 
 def settle(goal: Goal) -> list[Goal]:
@@ -241,6 +222,7 @@ def settle(goal: Goal) -> list[Goal]:
 def close(goal: Goal) -> list[Goal]:
     left_over = goal.left.has(Integral) or goal.right.has(Integral)
     demand(not (goal.doubtful and left_over), "an integral that may not exist has been given no value")
+    demand(not goal.left.has(nan), "the left side is not defined")
     demand(
         goal.left == goal.right or goal.piece.is_zero(goal.left - goal.right),
         lambda: f"{goal.left} and {goal.right} are not shown to be equal",
@@ -250,12 +232,14 @@ def close(goal: Goal) -> list[Goal]:
 
 def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr], back: bool = False) -> list[Goal]:
     """Replace the left side of an equation that holds by its right side, inside the lemma's own domain; or ``back``."""
-    index = {v.symbol: v.member(v.index) for v in proven.domain.variables if isinstance(v, Integers)}
-    mapping = {**{v: k for v, k in index.items() if v not in mapping}, **mapping}
+    demand(all(isinstance(key, Symbol) for key in mapping), "only a name can be mapped")
+    mapping = _filled(proven, mapping)
     for v in proven.domain.variables:
         if isinstance(v, Integers):
             demand(v.high is None, lambda: f"{v.text()} ends, so no symbolic member of it can be taken")
             count = (mapping[v.symbol] - v.low) / v.step
+            same = (mapping[v.index] - count).expand() == 0
+            demand(same, lambda: f"{v.index} counts the members of {v.text()}, so it is {count}")
             demand(bool(count.is_integer and count.is_nonnegative), lambda: f"{mapping[v.symbol]} is not in {v.text()}")
     bound = {
         limit[0]
@@ -272,11 +256,14 @@ def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr], back: bool = 
         old, new = new, old
     elif not occurs(old, goal.left) and hasattr(old, "definition"):
         old = opened(old)
+    demand(not {old, new} & {oo, -oo} or goal.left == old, "nothing is reckoned with what is infinite")
     demand(occurs(old, goal.left), lambda: f"the side of {proven.id} that is to be replaced, {old}, does not occur")
     for piece in contexts(goal, old):
+        for key, value in mapping.items():
+            demand(keeps_to(key, value, piece), lambda: f"{value} is not shown to be one of what {key} stands for")
         for variable in proven.domain.variables:
             if isinstance(variable, Choices):
-                demand(mapping[variable.symbol] in variable.values, lambda: f"{variable.text()} is not met")
+                demand(mapping.get(variable.symbol) in variable.values, lambda: f"{variable.text()} is not met")
             elif isinstance(variable, Interval):
                 for bound, strict in variable.facts():
                     here = piece.sign(bound.subs(mapping, simultaneous=True))
@@ -287,6 +274,16 @@ def lemma(goal: Goal, proven: Proven, mapping: dict[Symbol, Expr], back: bool = 
             held = piece.decide(condition.subs(mapping, simultaneous=True))
             demand(held is True, lambda: f"{proven.id} assumes {condition}, which is not shown here")
     return [goal.with_left(goal.left.xreplace({old: new}))]
+
+
+def _filled(proven: Proven, mapping: dict[Symbol, Expr]) -> dict[Symbol, Expr]:
+    """A mapping with what it leaves out: an integer variable and the index that counts its values belong together."""
+    filled = dict(mapping)
+    for v in proven.domain.variables:
+        if isinstance(v, Integers):
+            value = filled.setdefault(v.symbol, v.member(filled.get(v.index, v.index)))
+            filled.setdefault(v.index, (value - v.low) / v.step)
+    return filled
 
 
 def contexts(goal: Goal, part: Expr) -> list[Piece]:
@@ -300,9 +297,11 @@ def contexts(goal: Goal, part: Expr) -> list[Piece]:
         if not occurs(part, e):
             return
         if isinstance(e, Sum):
-            natural = all(j.is_integer and j.is_nonnegative and a.is_nonnegative for j, a, _ in e.limits)
+            runs = all(natural(j, a) for j, a, _ in e.limits)
             apart = not any(piece.facts_about(j) for j, *_ in e.limits)
-            demand(natural and apart, lambda: f"{part} stands in a sum whose index is not known to be natural")
+            demand(runs and apart, lambda: f"{part} stands in a sum whose index is not known to be natural")
+            onward = all(b == oo or (b - a + 1).is_nonnegative for _, a, b in e.limits)
+            demand(onward, lambda: f"{e} may run backwards")
             fixed = not any(occurs(part, end) for _, *ends in e.limits for end in ends)
             demand(fixed, "a limit of a sum stays as it is")
             visit(e.function, piece)
@@ -314,6 +313,8 @@ def contexts(goal: Goal, part: Expr) -> list[Piece]:
                 piece = piece.inside(x, low, high)
             visit(e.function, piece)
             return
+        binds = isinstance(e, ExprWithLimits | Limit | Subs | Derivative | Lambda)
+        demand(not binds, lambda: f"{part} stands in {e}, of whose variable nothing is known")
         for a in e.args:
             visit(a, piece)
 
@@ -346,149 +347,26 @@ def ode(goal: Goal, x: Symbol, coefficients: list[Expr], at: Expr) -> list[Goal]
     return []
 
 
-def connected(piece: Piece, x: Symbol) -> None:
-    """Whatever the piece says about x must describe an interval: bounds, each linear in x."""
-    for e, _ in piece.facts:
-        if e.has(x):
-            demand(diff(e, x, 2) == 0, lambda: f"the condition {e} > 0 may cut the range of {x} into several pieces")
-
-
 # --- inequalities: X >= 0 is the equation |X| = X -------------------------------------------------------
 
 
 def _replaced(proven: Proven, mapping: dict[Symbol, Expr], back: bool) -> Expr:
-    index = {v.symbol: v.member(v.index) for v in proven.domain.variables if isinstance(v, Integers)}
-    return (proven.form if back else proven.left).subs({**index, **mapping}, simultaneous=True)
-
-
-def induct(
-    goal: Goal,
-    index: Symbol,
-    factor: Expr,
-    terms: list[Expr],
-    proven: Proven | None = None,
-    mapping: dict[Symbol, Expr] | None = None,
-) -> list[Goal]:
-    """X(0) >= 0, and X(n + 1) is a factor that is not negative times X(n), plus terms that show they are not negative.
-
-    A lemma |Y| = Y may show it of a Y in them.
-    """
-    x = goal.right
-    demand(goal.left == Magnitude(x), lambda: f"{goal.left} = {x} does not say that {x} is not negative")
-    demand(bool(index.is_integer and index.is_nonnegative), lambda: f"{index} does not run over 0, 1, 2, ...")
-    demand(not goal.piece.facts_about(index), "what is known of the index need not hold for the next one")
-    for part in (x.subs(index, 0), factor):
-        demand(goal.piece.sign(part) in ("+", ">=", "0"), lambda: f"{part} is not shown to be at least 0")
-    added = x.subs(index, index + 1) - factor * x
-    (shown,) = fact(goal, added, terms, None, proven, mapping, back=proven is not None)
-    demand(shown.piece.facts[-1][0] == added, lambda: f"{added} is not shown to be at least 0")
-    return []
-
-
-def dominate(goal: Goal, total: Sum, first: Expr, ratio: Expr) -> list[Goal]:
-    """|sum of f_j| <= first / (1 - ratio), noted as two facts, where |f_j| <= first ratio^j and 0 <= ratio < 1."""
-    demand(
-        len(total.limits) == 1 and total.limits[0][1:] == (0, oo), lambda: f"{total} does not run from 0 without end"
-    )
-    j = total.limits[0][0]
-    demand(bool(j.is_integer and j.is_nonnegative) and not first.has(j) and not ratio.has(j), "the bound depends on j")
-    sign_of = goal.piece.sign
-    shrinks = sign_of(ratio) in ("+", ">=", "0") and sign_of(1 - ratio) == "+"
-    demand(shrinks, lambda: f"{ratio} is not shown to be in [0, 1)")
-    bound = first * ratio**j
-    for gap in (bound - total.function, bound + total.function):
-        demand(sign_of(gap) in ("+", ">=", "0"), lambda: f"{gap} is not shown to be at least 0")
-    whole = first / (1 - ratio)
-    return [replace(goal, piece=goal.piece.extended([(whole - total, False), (whole + total, False)]))]
-
-
-# --- regularity ---------------------------------------------------------------------------------------
-
-
-def resolved(e: Expr, piece: Piece) -> Expr:
-    """Every switch outside the integrands replaced by the branch that the facts select."""
-    if not e.has(*SWITCHES):
-        return e
-    if isinstance(e, Integral):
-        return Integral(e.function, *((x, *(resolved(end, piece) for end in ends)) for x, *ends in e.limits))
-    if isinstance(e, SWITCHES):
-        try:
-            return resolved(piece.field.settled(e), piece)
-        except Unsettled as reason:
-            raise Refused(str(reason)) from reason
-    return e.func(*(resolved(a, piece) for a in e.args))
-
-
-def smooth(e: Expr, x: Symbol, piece: Piece) -> None:
-    """e is analytic in x on the open piece: no root or logarithm of what may vanish, no quotient by it."""
-    _critical(e, lambda a: piece.sign(a), lambda a: a.has(x))
-
-
-def continuous_at(e: Expr, x: Symbol, end: Expr, outer: Piece) -> None:
-    """e is continuous up to x = end."""
-    demand(end not in (oo, -oo), "an infinite end needs a change of variables first")
-    _critical(e, lambda a: outer.sign(a.subs(x, end)), lambda _: False)
-
-
-def _critical(e: Expr, sign_of: Callable[[Expr], Any], strict: Callable[[Expr], bool]) -> None:
-    for node in preorder_traversal(e):
-        allowed = ("+",) if strict(node) else ("+", ">=", "0")
-        if isinstance(node, Pow) and not node.exp.is_nonnegative:
-            demand(sign_of(node.base) in ("+", "-"), lambda: f"{node.base} may vanish in a denominator")
-            if not node.exp.is_integer:
-                demand(sign_of(node.base) == "+", lambda: f"{node.base} may be negative under a root")
-        elif isinstance(node, Pow) and not node.exp.is_integer and node.base.free_symbols:
-            demand(sign_of(node.base) in allowed, lambda: f"{node.base} may be negative under a root")
-        elif isinstance(node, log):
-            demand(sign_of(node.args[0]) == "+", lambda: f"the logarithm of {node.args[0]} may not be real")
-        elif isinstance(node, csch | coth):
-            demand(sign_of(node.args[0]) in ("+", "-"), lambda: f"{node} may be infinite")
-        elif isinstance(node, acos | asin):
-            z = node.args[0]
-            inside = sign_of(1 - z**2) in allowed or all(sign_of(gap) in allowed for gap in (1 - z, 1 + z))
-            demand(inside, lambda: f"{node} may leave the range of the inverse")
-        elif isinstance(node, atanh):
-            for gap in (1 - node.args[0], 1 + node.args[0]):
-                demand(sign_of(gap) == "+", lambda: f"{node} may be infinite")
-        elif isinstance(node, gamma | factorial | binomial):
-            free = [a for a in node.args if not a.is_integer]
-            demand(not free, lambda: f"{node} is not known to be smooth")
-        elif isinstance(node, besseli):
-            demand(bool(node.args[0].is_integer), lambda: f"{said(node)} is not of integer order")
-        elif isinstance(node, hyper):
-            above, below, _ = node.args
-            natural = len(above) == 0 and all(b.is_integer and b.is_positive for b in below)
-            demand(natural, lambda: f"{said(node)} is not known to be smooth")
-        elif isinstance(node, legendre):
-            demand(bool(node.args[0].is_integer), lambda: f"{said(node)} is not of integer degree")
-        elif isinstance(node, Tuple):
-            continue
-        elif not isinstance(node, ENTIRE):
-            # a list of what is smooth, since a list of what is not would always miss one
-            raise Refused(f"{said(node)} is not known to be smooth")
+    return (proven.form if back else proven.left).subs(_filled(proven, mapping), simultaneous=True)
 
 
 __all__ = [
     "Goal",
     "Proven",
-    "Refused",
     "cases",
     "close",
-    "connected",
     "contexts",
-    "continuous_at",
-    "demand",
-    "dominate",
     "fact",
-    "induct",
     "lemma",
     "nest",
     "occurs",
     "ode",
-    "resolved",
     "rewrite",
     "settle",
-    "smooth",
     "start",
     "swap",
     "unfold",

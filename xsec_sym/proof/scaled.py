@@ -29,7 +29,7 @@ def scaled_bessel(n: int, z: acb) -> acb:
     >>> scaled_bessel(0, acb(arb(100, 5), arb(0, 5))).real.rad() < 0.004
     True
     """
-    if z.real.rad() < 0.01 and z.imag.rad() < 0.01:
+    if z.real.rad() < 1e-9 and z.imag.rad() < 1e-9:
         return z.bessel_i(n, scaled=True)
     low = arb(z.real.lower())
     if not low > 0:

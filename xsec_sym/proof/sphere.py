@@ -5,6 +5,7 @@ Each is a theorem that is used as it stands; what a move checks is that the goal
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 
 from sympy import (
@@ -32,8 +33,11 @@ from sympy import (
 )
 
 from xsec_sym.proof.calculus import bounded, difference, iterated, parts
-from xsec_sym.proof.piece import Piece, times
-from xsec_sym.proof.rules import Goal, Proven, contexts, demand, lemma, occurs, smooth
+from xsec_sym.proof.names import captured, natural, plain
+from xsec_sym.proof.piece import Piece
+from xsec_sym.proof.regular import demand, smooth
+from xsec_sym.proof.rules import Goal, Proven, contexts, lemma, occurs
+from xsec_sym.proof.signs import times
 
 CIRCLE = (S.Zero, 2 * pi)
 
@@ -53,10 +57,12 @@ def turn(goal: Goal, integral: Integral, u: Expr, seen: Symbol | None = None, fo
     demand(outer.sign(1 - u**2) in ("+", ">=", "0"), lambda: f"{u} is not shown to be a cosine")
     facing = u * x + sqrt(1 - u**2) * sqrt(1 - x**2) * cos(azimuth)
     whole = outside * rest.function
+    demand(not captured([whole], facing), lambda: f"a name of {u} is used twice")
     if form is None or seen is None:
         seen = Symbol("seen#", real=True)
         whole = whole.xreplace({facing: seen})
     else:
+        demand(plain(seen) and not captured([form], facing), lambda: f"{seen} is not plain, or {u} captured")
         demand(not goal.left.has(seen) and not goal.right.has(seen), lambda: f"{seen} already stands for something")
         gap = whole - form.xreplace({seen: facing})
         demand(inner.inside(azimuth, *CIRCLE).is_zero(gap), lambda: f"{whole} is not {form} at {facing}")
@@ -87,29 +93,37 @@ def funk_hecke(goal: Goal, integral: Integral, u: Expr, index: Symbol) -> list[G
     azimuth, *ends = rest.limits[0]
     demand((low, high) == (-1, 1) and tuple(ends) == CIRCLE, "the integral is not over the sphere")
     demand(not u.has(x, azimuth) and not goal.left.has(index), lambda: f"{azimuth} or {index} is used twice")
-    demand(bool(index.is_integer and index.is_nonnegative), lambda: f"{index} does not run over 0, 1, 2, ...")
+    demand(natural(index), lambda: f"{index} does not run over 0, 1, 2, ...")
     demand(outer.sign(1 - u**2) in ("+", ">=", "0"), lambda: f"{u} is not shown to be a cosine")
-    kernel = rest.function.xreplace({u * x + sqrt(1 - u**2) * sqrt(1 - x**2) * cos(azimuth): azimuth})
-    facing = kernel.free_symbols <= {azimuth} and not kernel.has(cos)
+    seen = Symbol("seen#", real=True)
+    kernel = rest.function.xreplace({u * x + sqrt(1 - u**2) * sqrt(1 - x**2) * cos(azimuth): seen})
+    facing = kernel.free_symbols <= {seen} and not kernel.has(cos)
     demand(facing, lambda: f"{rest.function} depends on more than the cosine towards {u}")
-    clamped = isinstance(kernel, Max) and set(kernel.args) == {S.Zero, azimuth}
+    clamped = isinstance(kernel, Max) and set(kernel.args) == {S.Zero, seen}
     demand(clamped, lambda: f"{rest.function} is not the clamped cosine")
     demand(bounded(outside, x, inner), lambda: f"{outside} is not shown to be bounded")
     wave = legendre(index, x, evaluate=False)
     moments = [Integral(f * wave, (x, -1, 1)) for f in (outside, Max(0, x))]
     term = pi * (2 * index + 1) * Mul(*moments) * legendre(index, u, evaluate=False)
-    return [goal.with_left(goal.left.xreplace({integral: Sum(term, (index, 0, oo))}))]
+    found = Sum(term, (index, 0, oo))
+    return [replace(goal.with_left(goal.left.xreplace({integral: found})), absolute=goal.absolute | {found})]
 
 
 def parities(goal: Goal, total: Sum) -> list[Goal]:
     """An infinite sum of terms that have one sign or fall off absolutely, as its even and its odd terms.
 
-    Where the whole converges and one half of it does, so does the other; the halves are taken in their own order.
+    Where the whole converges and one half of it ends after its first term, so does the other half.
     """
     demand(occurs(total, goal.left) and len(total.limits) == 1, lambda: f"{total} does not occur")
     j, low, high = total.limits[0]
     demand(low == 0 and high == oo, "the sum does not run from 0 without end")
+    demand(natural(j), lambda: f"{j} does not run over 0, 1, 2, ...")
     even, odd = (Sum(total.function.subs(j, 2 * j + i), (j, 0, oo)) for i in (0, 1))
+    for piece in contexts(goal, total):
+        demand(not piece.facts_about(j), lambda: f"{j} is used twice")
+        ends = any(piece.is_zero(half.function.subs(j, j + 1)) for half in (even, odd))
+        shown = total in goal.absolute or ends or piece.sign(total.function) is not None
+        demand(shown, lambda: f"{total} is not shown to converge absolutely")
     return [goal.with_left(goal.left.xreplace({total: even + odd}))]
 
 
@@ -129,6 +143,7 @@ def wave(goal: Goal, old: Expr, t: Symbol) -> list[Goal]:
     demand(isinstance(old, besseli) and occurs(old, goal.left), lambda: f"{old} is not a Bessel function of the goal")
     order, argument = old.args
     demand(bool(order.is_integer), lambda: f"the order {order} is not known to be an integer")
+    demand(plain(t), lambda: f"{t} is not a plain real variable")
     demand(not goal.left.has(t) and not goal.right.has(t), lambda: f"{t} already stands for something else")
     contexts(goal, old)
     new = Integral(exp(argument * cos(t)) * cos(order * t), (t, *CIRCLE)) / (2 * pi)
@@ -144,6 +159,8 @@ def shear(goal: Goal, integral: Integral, a: Symbol, b: Symbol, new: Expr) -> li
     t, *ends = rest.limits[0]
     demand((low, high) == CIRCLE and tuple(ends) == CIRCLE, "the integral is not over a torus")
     demand(not goal.left.has(a, b) and not goal.right.has(a, b), lambda: f"{a} or {b} already stands for something")
+    demand(plain(a, b) and a != b, lambda: f"{a} and {b} are not plain real variables")
+    demand(not new.has(x, t), lambda: f"{new} depends on the old angles")
     whole = outside * rest.function
     for angle in (a, b):
         demand(_wavy(new, angle), lambda: f"{new} is not shown to have the period 2 pi in {angle}")
@@ -189,7 +206,7 @@ def _linear(e: Expr) -> Expr:
         if isinstance(base, cos) and count.is_Integer and count > 0:
             waves += [base.args[0]] * int(count)
         else:
-            others *= _linear(part)
+            others *= part if part == spread else _linear(part)
     sums = {S.Zero: S.One}
     for angle in waves:
         found: dict[Expr, Expr] = {}
@@ -203,6 +220,7 @@ def _linear(e: Expr) -> Expr:
 def beats(goal: Goal, integral: Integral) -> list[Goal]:
     """Products of cosines in an integrand as sums: 2 cos a cos b = cos(a + b) + cos(a - b)."""
     f, *_ = parts(goal, integral)
+    demand(not f.has(Integral, Sum), "an integral or a sum inside would be taken apart")
     return [goal.with_left(goal.left.xreplace({integral: Integral(_linear(f).expand(), *integral.limits)}))]
 
 
@@ -214,7 +232,7 @@ def harmonics(goal: Goal, integral: Integral, index: Symbol, proven: Proven, map
     """
     f, x, low, psi, outer, _ = parts(goal, integral)
     demand(low == 0 and psi.is_finite is not False, "the integral does not start from 0")
-    demand(bool(index.is_integer and index.is_nonnegative), lambda: f"{index} does not run over 0, 1, 2, ...")
+    demand(natural(index), lambda: f"{index} does not run over 0, 1, 2, ...")
     demand(not goal.left.has(index), lambda: f"{index} already stands for something else")
     anywhere = Piece([fact for fact in outer.facts if not fact[0].has(x)], outer.ranges, outer.local)
     smooth(f, x, anywhere)
@@ -224,6 +242,7 @@ def harmonics(goal: Goal, integral: Integral, index: Symbol, proven: Proven, map
     demand(isinstance(coefficient, Integral) and len(coefficient.limits) == 1, "the lemma is not about an integral")
     y, *ends = coefficient.limits[0]
     demand(tuple(ends) == CIRCLE, "the lemma's integral does not run once around")
+    demand(y == x or not f.has(y), lambda: f"{y} is used twice")
     wanted = f.xreplace({x: y}) * cos((2 * index + 1) * y)
     demand(outer.inside(y, *CIRCLE).is_zero(coefficient.function - wanted), "the lemma gives no coefficient of these")
     (shown,) = lemma(Goal(coefficient, S.Zero, outer), proven, mapping)
@@ -247,7 +266,8 @@ def taylor(
     derivative is its next member. ``moment`` is a primitive of w(y) v(y)^k.
     """
     f, y, low, high, outer, inner = parts(goal, integral)
-    demand(bool(index.is_integer and index.is_nonnegative), lambda: f"{index} does not run over 0, 1, 2, ...")
+    demand(natural(index) and plain(z), lambda: f"{index} does not run over 0, 1, 2, ..., or {z} is not plain")
+    demand(not outer.facts_about(index), lambda: f"something is known of {index}")
     demand(not goal.left.has(z, index) and not goal.right.has(z), lambda: f"{z} or {index} is taken")
     demand(bool(weight.is_polynomial(y) and inner_map.is_polynomial(y)), "the weight and the map are not polynomials")
     demand(not {low, high} & {oo, -oo}, "the range is not bounded")
@@ -279,8 +299,9 @@ def peel(goal: Goal, total: Sum, count: Expr = S.One) -> list[Goal]:
     demand(occurs(total, goal.left) and len(total.limits) == 1, lambda: f"{total} does not occur")
     j, low, high = total.limits[0]
     demand(low == 0 and high == oo, "the sum does not run from 0 without end")
-    natural = bool(count.is_integer and count.is_nonnegative) and not count.has(j)
-    demand(natural, lambda: f"{count} is not a number of terms")
+    counts = bool(count.is_integer and count.is_nonnegative) and not count.has(j)
+    demand(counts, lambda: f"{count} is not a number of terms")
+    demand(natural(j) and not captured([total.function], count), lambda: f"{count} would be captured by {total}")
     rest = Sum(total.function.subs(j, j + count), (j, 0, oo))
     first = total.function.subs(j, 0) if count == 1 else Sum(total.function, (j, 0, count - 1))
     return [goal.with_left(goal.left.xreplace({total: first + rest}))]

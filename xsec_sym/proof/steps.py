@@ -10,7 +10,8 @@ from sympy import Expr, Integral, Sum, Symbol, preorder_traversal, sympify
 from xsec_sym.proof import wire
 from xsec_sym.proof.checker import FORMAT, Certificate, apply, opening
 from xsec_sym.proof.claim import Claim
-from xsec_sym.proof.rules import Goal, Refused
+from xsec_sym.proof.regular import Refused
+from xsec_sym.proof.rules import Goal
 
 
 class Step:

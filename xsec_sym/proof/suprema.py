@@ -84,9 +84,7 @@ class Panel:
         return size, x
 
 
-def panels(
-    f: Surface, x: tuple[float, float], y: tuple[float, float], error: float, depth: int = 6
-) -> Iterator[Panel]:
+def panels(f: Surface, x: tuple[float, float], y: tuple[float, float], error: float, depth: int = 6) -> Iterator[Panel]:
     """Interpolants with at most this error that cover a rectangle, which is halved as long as none can be had.
 
     >>> from flint import arb, acb
@@ -170,9 +168,7 @@ def _to_unit(t: np.ndarray, ends: tuple[float, float]) -> np.ndarray:
 # --- bounds on ellipses -------------------------------------------------------------------------------
 
 
-def _degree(
-    f: Surface, x: tuple[float, float], y: tuple[float, float], error: float, first: bool
-) -> tuple[int, float]:
+def _degree(f: Surface, x: tuple[float, float], y: tuple[float, float], error: float, first: bool) -> tuple[int, float]:
     """The degree that is enough in one variable, with its error, the other variable being real."""
     own, other = (x, y) if first else (y, x)
     if own[0] == own[1]:

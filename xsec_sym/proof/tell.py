@@ -28,7 +28,7 @@ def tell(claims: Iterable[Claim]) -> None:
             earned[claim.id] = worst(words)
             print(f"  = {earned[claim.id]}, the worst of its {len(words)} parts")
             continue
-        if claim.kind in ("equation", "statement"):
+        if claim.kind not in ("definition", "out-of-scope"):
             _show(claim)
         verdict = verify(claim, REGISTRY)
         earned[claim.id] = verdict.verdict
@@ -37,6 +37,9 @@ def tell(claims: Iterable[Claim]) -> None:
         if verdict.witness:
             print(f"  ✗ the print fails at {verdict.witness['point']}:")
             print(f"    {verdict.witness['left']} against {verdict.witness['right']}")
+        for name in ("largest error", "where", "proved bound", "reach", "holds to", "broken at", "error of the print"):
+            if name in verdict.evidence:
+                print(f"    {name}: {_plainly(verdict.evidence[name])}")
         tried = verdict.evidence.get("witnesses")
         numbers = f" ({tried} witnesses, {verdict.mutants} mutants rejected)" if tried else ""
         print(f"  = {verdict.verdict}{numbers}{'; ' + claim.edit if claim.edit else ''} {verdict.note}".rstrip())
@@ -47,6 +50,10 @@ def _show(claim: Claim) -> None:
         if side is not None:
             print(f"    {word}:")
             print("\n".join("        " + line for line in pretty(side, use_unicode=True).splitlines()))
+
+
+def _plainly(value: object) -> str:
+    return ", ".join(f"{k} = {v}" for k, v in value.items()) if isinstance(value, dict) else str(value)
 
 
 def _import_all(package: str) -> None:

@@ -28,7 +28,7 @@ from xsec_sym.proof.numeric import (
     try_at,
     with_instances,
 )
-from xsec_sym.proof.rules import Refused
+from xsec_sym.proof.regular import Refused
 from xsec_sym.proof.say import said
 from xsec_sym.proof.steps import derive
 from xsec_sym.proof.verdict import Verdict

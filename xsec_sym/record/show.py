@@ -44,6 +44,7 @@ def told(entry: Entry, ledger: Mapping[str, Entry]) -> str:
         ("reading", entry.reading),
         ("note", entry.note),
         ("evidence", _evidence(entry)),
+        *(("argument", words) for words in entry.evidence.get("in words", [])),
     ]
     lines = [_field(name, text) for name, text in facts if text]
     if entry.witness:
@@ -108,7 +109,7 @@ def _evidence(entry: Entry) -> str:
     said = [
         f"{name.replace('_', ' ')}: {_said(value)}"
         for name, value in entry.evidence.items()
-        if value not in ([], {}, None)
+        if value not in ([], {}, None) and name != "in words"
     ]
     if entry.mutants:
         said.append(f"{entry.mutants} altered forms rejected")
@@ -119,7 +120,7 @@ def _said(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, dict):
-        return ", ".join(f"{k} {_said(v)}" for k, v in value.items())
+        return ", ".join(f"{k} = {_said(v)}" for k, v in value.items())
     return ", ".join(map(_said, value)) if isinstance(value, list) else str(value)
 
 

@@ -1,0 +1,1 @@
+"""kenha2018: a distribution of normals made from a mirror of revolution."""

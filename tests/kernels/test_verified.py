@@ -1,0 +1,62 @@
+"""The hand-made kernels against the very expressions that the record holds as verified, at 50 digits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+from sympy import lambdify, pi, symbols
+
+from xsec_sym import kernels, ledger
+
+u, u_i, alpha, b = symbols("u u_i alpha b", real=True)
+
+# kernel -> (entry, factor that turns the entry's normalisation into the kernel's, names of its arguments)
+VERIFIED = {
+    "sigma_beckmann": ("deon2016:22", 1, "u", "alpha"),
+    "sigma_ggx": ("deon2016:25", 1, "u", "alpha"),
+    "sigma_ellipsoidal": ("deon2016:27.2", 1 / (2 * pi), "u", "b"),
+    "sigma_spherical_gaussian": ("xsec:sg-integral", 1, "u", "alpha"),
+    "lambda_beckmann": ("xsec:smith.beckmann.lambda", 1, "u", "alpha"),
+    "lambda_ggx": ("xsec:smith.ggx.lambda", 1, "u", "alpha"),
+}
+ROUGH = {"alpha": (0.07, 0.3, 1.0, 2.5), "b": (0.05, 0.5, 0.95, 0.999)}
+
+
+def verified(name):
+    entry, factor, *arguments = VERIFIED[name]
+    form = ledger[entry].form * factor
+    found = {s.name.replace("_i", ""): s for s in form.free_symbols}
+    return lambdify([found[a] for a in arguments], form, "mpmath"), arguments[1]
+
+
+@pytest.mark.parametrize("name", VERIFIED)
+def test_the_kernel_is_the_verified_expression(name):
+    assert ledger[VERIFIED[name][0]].verdict in ("proved", "misprint")
+    reference, roughness = verified(name)
+    seen = (0.03, 0.4, 0.97) if name.startswith("lambda") else (-0.97, -0.4, -0.03, 0.03, 0.4, 0.97)
+    integral = name.endswith("gaussian")  # dear at many digits, so at fewer points
+    for rough in ROUGH[roughness][integral:]:
+        for cosine in seen[:: 2 if integral else 1]:
+            got = float(getattr(kernels, name)(cosine, rough))
+            with mp.workdps(60 if integral else 400):
+                want = reference(mpf(cosine), mpf(rough))
+            if abs(want) > 1e-290:
+                assert abs(mpf(got) / want - 1) < (16 if integral else 8) * mpf(2) ** -52, (cosine, rough)
+
+
+def test_the_table_of_kernels_is_complete():
+    made = {n for n in kernels.__all__ if n.startswith(("sigma_", "lambda_"))}
+    assert set(VERIFIED) <= made
+    assert {f"{k}_{d}" for k, d in (("sigma", "beckmann"), ("sigma", "ggx"), ("sigma", "ellipsoidal"))} <= set(VERIFIED)
+
+
+def test_single_precision_of_the_spherical_gaussian():
+    generator = np.random.default_rng(5)
+    cosine = generator.uniform(-1, 1, 400).astype(np.float32)
+    rough = np.exp(generator.uniform(np.log(0.05), np.log(50), 400)).astype(np.float32)
+    single = kernels.sigma_spherical_gaussian(cosine, rough)
+    double = kernels.sigma_spherical_gaussian(cosine.astype(float), rough.astype(float))
+    normal = double > np.finfo(np.float32).tiny
+    assert single.dtype == np.float32
+    assert np.all(np.abs(single[normal] - double[normal]) <= 0.51 * np.spacing(single[normal]))
