@@ -97,7 +97,7 @@ boundary = project.inequality(
     where=[interval(v, Rational(1, 100), Rational(19, 20)), interval(alpha, Rational(1, 5), 1)],
     reduces=("xsec:sg-positive",),
     reading="a = v sqrt(kappa / (2 s)), from Laplace's method on sg-positive; no proof: the bound is tried at "
-    "witnesses (the largest error found is 0.42 / (kappa s), for v towards 0)",
+    "witnesses (the largest error found, relative to the layer, is 0.44 / (kappa s), for alpha = 1 and v towards 0)",
 )
 
 if __name__ == "__main__":
