@@ -1,4 +1,4 @@
-"""The figures that readings quote as measured, measured: the kernel's cross-section against the approximants in doubles."""
+"""The figures that readings quote as measured, measured: the cross-section of the kernel against the approximants."""
 
 from __future__ import annotations
 
