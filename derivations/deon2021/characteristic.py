@@ -1,7 +1,7 @@
 """Section 3.1: the characteristic functions of the three pseudo-problems, and K of (23) in closed form, (24)-(26).
 
-The characteristic functions follow from the Legendre moments of a solution that decays with depth. They are tried
-against the determinant of the transport operator as well (`xsec:lambert-sphere.determinant`), which knows no recurrence.
+The characteristic functions follow from the Legendre moments of a solution that decays with depth. They are also tried
+against the determinant of the transport operator (`xsec:lambert-sphere.determinant`), which knows no recurrence.
 """
 
 from sympy import I, Integral, Matrix, Rational, Symbol, atan, legendre, oo, sqrt, symbols
