@@ -90,6 +90,26 @@ def lobe_rows() -> list[Row]:
     return rows
 
 
+def half_space_rows() -> list[Row]:
+    """H and the BRDF of isotropic scattering, with an array of albedos as long as that of cosines, and with one."""
+    from xsec_sym import kernels
+
+    rng = np.random.default_rng(3)
+    mu, other, c = rng.uniform(0, 1, (3, VALUES))
+    exp = median_seconds(lambda: np.exp(mu))
+    rows = [("np.exp", f"{1e9 * exp / VALUES:.2f} ns/value", "")]
+    runs: dict[str, Callable[[], object]] = {
+        "h_isotropic": lambda: kernels.h_isotropic(mu, c),
+        "h_isotropic, one albedo": lambda: kernels.h_isotropic(mu, 0.9),
+        "brdf_isotropic": lambda: kernels.brdf_isotropic(mu, other, c),
+        "brdf_isotropic, one albedo": lambda: kernels.brdf_isotropic(mu, other, 0.9),
+    }
+    for name, run in runs.items():
+        seconds = median_seconds(run, 5)
+        rows.append((name, f"{1e9 * seconds / VALUES:.2f} ns/value", f"{seconds / exp:.1f} x np.exp"))
+    return rows
+
+
 def cross_section_rows() -> list[Row]:
     from xsec_sym.kernels import cross_section
 
@@ -120,7 +140,14 @@ def command_rows() -> list[Row]:
     return rows
 
 
-SECTIONS: list[Callable[[], list[Row]]] = [import_rows, kernel_rows, lobe_rows, cross_section_rows, command_rows]
+SECTIONS: list[Callable[[], list[Row]]] = [
+    import_rows,
+    kernel_rows,
+    lobe_rows,
+    half_space_rows,
+    cross_section_rows,
+    command_rows,
+]
 
 
 def main() -> None:

@@ -4,6 +4,7 @@ from xsec_sym.kernels.beckmann import lambda_beckmann, ndf_beckmann, sigma_beckm
 from xsec_sym.kernels.dirac_ring import sigma_dirac_ring
 from xsec_sym.kernels.ellipsoidal import ndf_ellipsoidal, sigma_ellipsoidal
 from xsec_sym.kernels.ggx import lambda_ggx, ndf_ggx, sigma_ggx
+from xsec_sym.kernels.isotropic import brdf_isotropic, h_isotropic
 from xsec_sym.kernels.power import sigma_power
 from xsec_sym.kernels.ring_lemma import CrossSection, cross_section
 from xsec_sym.kernels.spherical_gaussian import ndf_spherical_gaussian, sigma_spherical_gaussian
@@ -11,7 +12,9 @@ from xsec_sym.kernels.table1 import sigma_inv1m, sigma_inv1m2, sigma_inv1p, sigm
 
 __all__ = [
     "CrossSection",
+    "brdf_isotropic",
     "cross_section",
+    "h_isotropic",
     "lambda_beckmann",
     "lambda_ggx",
     "ndf_beckmann",
