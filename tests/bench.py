@@ -110,6 +110,35 @@ def half_space_rows() -> list[Row]:
     return rows
 
 
+def vector_rows() -> list[Row]:
+    """The squared lobes, with arrays of roughnesses and with single ones, and Smith's functions of Lambda."""
+    from xsec_sym import kernels
+
+    rng = np.random.default_rng(3)
+    vectors = rng.normal(size=(3, VALUES))
+    x, y, z = vectors / np.sqrt((vectors * vectors).sum(axis=0))
+    a, b, lam_i, lam_o = rng.uniform(0.01, 1, (4, VALUES))
+    exp, copy = median_seconds(lambda: np.exp(z)), median_seconds(z.copy)
+    rows = [(name, f"{1e9 * seconds / VALUES:.2f} ns/value", "") for name, seconds in (("np.exp", exp), ("copy", copy))]
+    runs: dict[str, tuple[object, ...]] = {
+        "ssl": (z, a),
+        "ssl, one roughness": (z, 0.3),
+        "sel": (x, y, z, a, b),
+        "sel, one pair of roughnesses": (x, y, z, 0.3, 0.1),
+        "smith_g1": (lam_i,),
+        "smith_g2": (lam_i, lam_o),
+        "smith_g2_given_g1": (lam_i, lam_o),
+    }
+    for name, arguments in runs.items():
+        kernel: Callable[..., object] = getattr(kernels, name.partition(",")[0])
+        single = [np.float32(part) if isinstance(part, float) else part.astype(np.float32) for part in arguments]
+        for remark, values in {"": arguments, ", float32": single}.items():
+            seconds = median_seconds(lambda kernel=kernel, values=values: kernel(*values))
+            ratios = f"{seconds / exp:.1f} x np.exp, {seconds / copy:.1f} x copy"
+            rows.append((name + remark, f"{1e9 * seconds / VALUES:.2f} ns/value", ratios))
+    return rows
+
+
 def cross_section_rows() -> list[Row]:
     from xsec_sym.kernels import cross_section
 
@@ -145,6 +174,7 @@ SECTIONS: list[Callable[[], list[Row]]] = [
     kernel_rows,
     lobe_rows,
     half_space_rows,
+    vector_rows,
     cross_section_rows,
     command_rows,
 ]

@@ -45,6 +45,41 @@ def test_the_kernel_is_the_verified_expression(name):
                 assert abs(mpf(got) / want - 1) < (16 if integral else 8) * mpf(2) ** -52, (cosine, rough)
 
 
+SLOPES = ((-0.6, 0.3), (0.0, 0.8), (1e-3, -2e-3), (1e-9, 1e-8))
+
+
+def lobe(entry, *arguments):
+    """The entry's form as a function of these of its symbols."""
+    form = ledger[f"tokuyoshi_harada:{entry}"].form
+    found = {s.name.replace("v_", ""): s for s in form.free_symbols}
+    assert sorted(found) == sorted(arguments)
+    return lambdify([found[a] for a in arguments], form, "mpmath")
+
+
+def near(got, want):
+    return abs(mpf(float(got)) / want - 1) < 8 * mpf(2) ** -52
+
+
+@pytest.mark.parametrize("entry", ["K.E", "K.U"])
+def test_the_ellipsoidal_lobe_is_the_verified_expression(entry):
+    assert ledger[f"tokuyoshi_harada:{entry}"].verdict == "proved"
+    reference = lobe(entry, "x", "y", "z", "alpha_x", "alpha_y")
+    for x, y in SLOPES:
+        for z in (np.sqrt((1 - np.hypot(x, y)) * (1 + np.hypot(x, y))) * side for side in (1, -1)):
+            for rough in ((1e-8, 1e-8), (1e-8, 0.5), (0.4, 0.03), (1.0, 1.0)):
+                with mp.workdps(400):
+                    assert near(kernels.sel(x, y, z, *rough), reference(*map(mpf, map(float, (x, y, z, *rough)))))
+
+
+def test_the_spheroidal_lobe_is_the_verified_expression():
+    assert ledger["tokuyoshi_harada:ssl"].verdict == "proved"
+    reference = lobe("ssl", "theta", "alpha")
+    for m in (-1.0, -0.4, 0.03, 0.97, 1 - 1e-9, 1.0):
+        for rough in (1e-8, 1e-3, 0.3, 1.0):
+            with mp.workdps(400):
+                assert near(kernels.ssl(m, rough), reference(mp.acos(mpf(m)), mpf(rough)))
+
+
 def test_the_table_of_kernels_is_complete():
     made = {n for n in kernels.__all__ if n.startswith(("sigma_", "lambda_"))}
     assert set(VERIFIED) <= made
