@@ -8,6 +8,12 @@ from xsec_sym.kernels.power import sigma_power
 from xsec_sym.kernels.ring_lemma import CrossSection, cross_section
 from xsec_sym.kernels.spherical_gaussian import ndf_spherical_gaussian, sigma_spherical_gaussian
 from xsec_sym.kernels.table1 import sigma_inv1m, sigma_inv1m2, sigma_inv1p, sigma_inv1pu2
+from xsec_sym.kernels.visible_normals import (
+    sample_visible_ggx,
+    sample_visible_spherical_gaussian,
+    visible_ggx,
+    visible_spherical_gaussian,
+)
 
 __all__ = [
     "CrossSection",
@@ -18,6 +24,8 @@ __all__ = [
     "ndf_ellipsoidal",
     "ndf_ggx",
     "ndf_spherical_gaussian",
+    "sample_visible_ggx",
+    "sample_visible_spherical_gaussian",
     "sigma_beckmann",
     "sigma_dirac_ring",
     "sigma_ellipsoidal",
@@ -28,4 +36,6 @@ __all__ = [
     "sigma_inv1pu2",
     "sigma_power",
     "sigma_spherical_gaussian",
+    "visible_ggx",
+    "visible_spherical_gaussian",
 ]
