@@ -6,7 +6,7 @@ judges them. `python -m xsec_sym.walks` does it all.
 
 from xsec_sym.walks.compare import Check, first_order, holds, same_directions, same_orders, visibility
 from xsec_sym.walks.heights import HEIGHTS, SmithMedium
-from xsec_sym.walks.homogeneous import HomogeneousMedium
+from xsec_sym.walks.homogeneous import HomogeneousMedium, TwoSidedMedium
 from xsec_sym.walks.paths import Emerged, Paths
 
 __all__ = [
@@ -16,6 +16,7 @@ __all__ = [
     "HomogeneousMedium",
     "Paths",
     "SmithMedium",
+    "TwoSidedMedium",
     "first_order",
     "holds",
     "same_directions",

@@ -78,7 +78,7 @@ def visibility(medium: Medium, cosine_i: float, cosine_o: float, n: int, rng: np
     ]
 
 
-def single_bounce(cosine: np.ndarray, azimuth: np.ndarray, cosine_i: float, alpha: float) -> np.ndarray:
+def single_bounce(cosine: np.ndarray | float, azimuth: np.ndarray | float, cosine_i: float, alpha: float) -> np.ndarray:
     """The density (1/sr) of light that leaves after one mirror flake: D(h) G2/(4 cos theta_i), for albedo 1.
 
     cosine, azimuth: of the direction in which it leaves; it came from the azimuth 0.
@@ -91,7 +91,7 @@ def single_bounce(cosine: np.ndarray, azimuth: np.ndarray, cosine_i: float, alph
     h_x, h_y, h_z = s_i + s_o * np.cos(azimuth), s_o * np.sin(azimuth), cosine_i + cosine
     h = np.minimum(h_z / np.sqrt(h_x * h_x + h_y * h_y + h_z * h_z), 1.0)
     g2 = 1.0 / (1.0 + lambda_ggx(cosine_i, alpha) + lambda_ggx(cosine, alpha))
-    return ndf_ggx(h, alpha) * g2 / (4.0 * cosine_i)
+    return np.asarray(ndf_ggx(h, alpha) * g2 / (4.0 * cosine_i))
 
 
 def first_order(emerged: Emerged, cosine_i: float, alpha: float) -> list[Check]:
@@ -117,14 +117,14 @@ def same_directions(one: Emerged, other: Emerged) -> Check:
     Cells have edges at quantiles of the cosine and of the azimuth of both walks' directions taken together, which are
     the same when the walks are exchanged; a path cut off inside is a cell of its own.
     """
-    parts = [[walk.directions[walk.orders > 0], walk.inside] for walk in (one, other)]
-    both = np.concatenate([directions for directions, _ in parts])
+    walks = (one, other)
+    parts = [walk.directions[walk.orders > 0] for walk in walks]
+    both = np.concatenate(parts)
     steps = np.linspace(0.0, 1.0, SIDES + 1)
-    heights = np.quantile(both[:, 2], steps)
-    azimuths = np.quantile(np.arctan2(both[:, 1], both[:, 0]), steps)
+    edges = [np.quantile(both[:, 2], steps), np.quantile(np.arctan2(both[:, 1], both[:, 0]), steps)]
     tables = [
-        np.append(np.histogram2d(d[:, 2], np.arctan2(d[:, 1], d[:, 0]), [heights, azimuths])[0].ravel(), inside)
-        for d, inside in parts
+        np.append(np.histogram2d(part[:, 2], np.arctan2(part[:, 1], part[:, 0]), edges)[0].ravel(), walk.inside)
+        for part, walk in zip(parts, walks, strict=True)
     ]
     return _homogeneous("directions", *tables)
 

@@ -10,6 +10,7 @@ from xsec_sym.kernels import lambda_ggx
 from xsec_sym.walks.paths import Emerged, Paths, Told, require, require_cosine
 
 CHUNK = 1 << 16
+LOG_2 = np.log(2.0)
 
 
 @dataclass(frozen=True)
@@ -24,17 +25,23 @@ class Heights:
     top: float
 
 
+def _log_of_rest(log: np.ndarray) -> np.ndarray:
+    """log(1 - exp(log)) for log <= 0: the way from log C1 to the logarithm of what is left above, and back."""
+    near, far = np.maximum(log, -LOG_2), np.minimum(log, -LOG_2)
+    return np.where(log > -LOG_2, np.log(-np.expm1(near)), np.log1p(-np.exp(far)))
+
+
 def _exponential_log_cdf(height: np.ndarray) -> np.ndarray:
-    return np.log(-np.expm1(-height))
+    return _log_of_rest(-height)
 
 
 def _exponential_inverse(log: np.ndarray) -> np.ndarray:
-    return -np.log(-np.expm1(log))
+    return -_log_of_rest(log)
 
 
 def _logistic_inverse(log: np.ndarray) -> np.ndarray:
     # -log(exp(-log) - 1), which does not overflow far down
-    return log - np.log(-np.expm1(log))
+    return log - _log_of_rest(log)
 
 
 HEIGHTS = {
@@ -63,8 +70,8 @@ class SmithMedium:
 
     >>> medium = SmithMedium(0.5, heights="uniform")
     >>> emerged = medium.walk(0.5, 20000, np.random.default_rng(1))
-    >>> emerged.inside, bool((emerged.directions[:, 2] > 0).all()), round(emerged.orders.mean(), 1)
-    (0, True, 1.2)
+    >>> emerged.inside, bool((emerged.directions[:, 2] > 0).all()), round(float(emerged.orders.mean()), 1)
+    (0, True, 1.4)
     """
 
     alpha: float
@@ -106,14 +113,14 @@ class SmithMedium:
         return Emerged(directions, orders)
 
     def trace(self, cosine: float, n: int, rng: np.random.Generator, most: int = 64) -> Paths:
-        """As `walk`, with all points of each path. It enters and leaves at the top, and first collides above the origin.
+        """As `walk`, with all points of each path. It enters and leaves at the top; it first collides above the origin.
 
         The top is where little of the surface is left (1 for uniform heights, 3 standard deviations for Gaussian ones),
         or the last point if that is higher.
 
         >>> paths = SmithMedium(0.5).trace(0.5, 3, np.random.default_rng(5))
         >>> paths.orders, paths.positions.shape
-        (array([1, 1, 1]), (3, 3, 3))
+        (array([1, 2, 1]), (3, 4, 3))
         """
         top = HEIGHTS[self.heights].top
         positions, orders = np.full((n, most + 2, 3), np.nan), np.zeros(n, np.int64)
