@@ -38,23 +38,21 @@ def _visible_ggx(x: np.ndarray, y: np.ndarray, z: np.ndarray, u: np.ndarray, alp
 
 
 def _visible_gaussian(x: np.ndarray, y: np.ndarray, z: np.ndarray, u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
-    # The factor exp(-kappa (1 - s)) of both the distribution and the cross-section cancels before it underflows.
+    # One viewer for all normals needs its cross-section once.
+    first = slice(0, 1 if (u == u[0]).all() and (alpha == alpha[0]).all() else u.size)
+    every, u, alpha = u, u[first], alpha[first]
     alpha = np.where(alpha > LARGEST, LARGEST, alpha)
     kappa = 2.0 / alpha / alpha
     s = np.sqrt((1.0 - u) * (1.0 + u))
+    # The factor exp(-kappa (1 - s)) of both the distribution and the cross-section cancels before it underflows.
     shape = dark_shape(np.minimum(np.abs(u), 1.0), kappa)
     lit = u > 0.0
     # No visible normal is higher than top; 1 - s = u^2/(1 + s).
     area = np.where(lit, np.exp(-kappa * u * u / (1.0 + s)) * shape + mean_cosine(kappa) * u, shape)
+    area[~((np.abs(u) <= 1.0) & (alpha >= SMALLEST))] = np.nan
     top = np.where(lit, 1.0, s)
-    density = (
-        _facing(x, y, z, u)
-        * (-kappa / np.expm1(-2.0 * kappa) / (2.0 * np.pi))
-        * np.exp(kappa * np.minimum(z - top, 0.0))
-        / area
-    )
-    density[~((np.abs(u) <= 1.0) & (alpha >= SMALLEST))] = np.nan
-    return density
+    scale = -kappa / np.expm1(-2.0 * kappa) / (2.0 * np.pi)
+    return _facing(x, y, z, every) * np.exp(kappa * np.minimum(z - top, 0.0)) * (scale / area)
 
 
 def visible_ggx(
