@@ -11,6 +11,12 @@ from xsec_sym.kernels.ring_lemma import CrossSection, cross_section
 from xsec_sym.kernels.smith import smith_g1, smith_g2, smith_g2_given_g1
 from xsec_sym.kernels.spherical_gaussian import ndf_spherical_gaussian, sigma_spherical_gaussian
 from xsec_sym.kernels.table1 import sigma_inv1m, sigma_inv1m2, sigma_inv1p, sigma_inv1pu2
+from xsec_sym.kernels.visible_normals import (
+    sample_visible_ggx,
+    sample_visible_spherical_gaussian,
+    visible_ggx,
+    visible_spherical_gaussian,
+)
 
 __all__ = [
     "CrossSection",
@@ -23,6 +29,8 @@ __all__ = [
     "ndf_ellipsoidal",
     "ndf_ggx",
     "ndf_spherical_gaussian",
+    "sample_visible_ggx",
+    "sample_visible_spherical_gaussian",
     "sel",
     "sigma_beckmann",
     "sigma_dirac_ring",
@@ -38,4 +46,6 @@ __all__ = [
     "smith_g2",
     "smith_g2_given_g1",
     "ssl",
+    "visible_ggx",
+    "visible_spherical_gaussian",
 ]

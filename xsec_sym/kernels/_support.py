@@ -52,30 +52,51 @@ def elementwise(
     >>> elementwise(lambda x, y: x + y, x=1, y=[2, 3.5])
     array([3. , 4.5])
     """
+    return elementwise_tuple(lambda *vectors: (core(*vectors),), 1, orders, **arguments)[0]
+
+
+def elementwise_tuple(
+    core: Callable[..., tuple[np.ndarray, ...]],
+    outputs: int,
+    orders: Collection[str] = (),
+    **arguments: np.typing.ArrayLike,
+) -> tuple[np.ndarray | np.floating, ...]:
+    """As `elementwise`, for a `core` that returns so many vectors at once.
+
+    >>> elementwise_tuple(lambda x, y: (x + y, x - y), 2, x=1, y=[2, 3.5])
+    (array([3. , 4.5]), array([-1. , -2.5]))
+    """
     arrays = [real_array(name, value) for name, value in arguments.items()]
     dtype = result_dtype(arguments, orders)
-    try:
-        shape = np.broadcast_shapes(*(array.shape for array in arrays))
-    except ValueError as error:
-        shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(arguments, arrays, strict=True))
-        raise ValueError(f"these shapes do not broadcast: {shapes}") from error
-    result = np.empty(shape, dtype)
-    access: Any = [("readonly",)] * len(arrays) + [("writeonly", "no_broadcast")]
+    shape = common_shape(dict(zip(arguments, arrays, strict=True)))
+    results = [np.empty(shape, dtype) for _ in range(outputs)]
+    access: Any = [("readonly",)] * len(arrays) + [("writeonly", "no_broadcast")] * outputs
     blocks = np.nditer(
-        (*arrays, result),
+        (*arrays, *results),
         flags=("external_loop", "buffered", "zerosize_ok"),
         op_flags=access,
-        op_dtypes=(np.float64,) * (len(arrays) + 1),
+        op_dtypes=(np.float64,) * (len(arrays) + outputs),
         casting="same_kind",
         buffersize=BLOCK,
     )
     with np.errstate(all="ignore"), blocks:
-        for *vectors, out in blocks:
+        for block in blocks:
+            vectors, outs = block[: len(arrays)], block[len(arrays) :]
             # Without a cast the buffer is skipped, and a block may then be the whole array.
-            for start in range(0, out.size, BLOCK):
+            for start in range(0, outs[0].size, BLOCK):
                 part = slice(start, start + BLOCK)
-                out[part] = core(*(vector[part] for vector in vectors))
-    return result[()]
+                for out, value in zip(outs, core(*(vector[part] for vector in vectors)), strict=True):
+                    out[part] = value
+    return tuple(result[()] for result in results)
+
+
+def common_shape(arrays: dict[str, np.ndarray]) -> tuple[int, ...]:
+    """The shape that the named arrays broadcast to; a ValueError that names their shapes where there is none."""
+    try:
+        return np.broadcast_shapes(*(array.shape for array in arrays.values()))
+    except ValueError as error:
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
+        raise ValueError(f"these shapes do not broadcast: {shapes}") from error
 
 
 def horner(coefficients: Collection[float], x: np.ndarray) -> np.ndarray:

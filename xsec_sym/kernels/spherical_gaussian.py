@@ -70,9 +70,10 @@ def _least_exponent(v: np.ndarray, alpha: np.ndarray) -> Pair:
     return quotient(2.0 * n, 2.0 * n_low, d, d_low + a * one_low + a_low * one)
 
 
-def _dark(v: np.ndarray, alpha: np.ndarray, kappa: np.ndarray) -> np.ndarray:
-    """sigma(-v) for v >= 0: kappa/(2 sinh kappa) times the integral of t exp(-kappa v t) I0(kappa s sqrt(1 - t^2)).
+def dark_shape(v: np.ndarray, kappa: np.ndarray) -> np.ndarray:
+    """exp(kappa (1 - s)) sigma(-v) for v >= 0, s = sqrt(1 - v^2): what is left when the steep factor is taken out.
 
+    sigma(-v) is kappa/(2 sinh kappa) times the integral of t exp(-kappa v t) I0(kappa s sqrt(1 - t^2)), where
     t = sin phi runs from 0 to 1. With the scaled Bessel function e^-x I0(x) the exponent is
     -kappa (1 - s) - kappa (2 s sin^2(phi/2) + v sin phi), whose first part goes before the integral; all is positive.
     """
@@ -90,7 +91,7 @@ def _dark(v: np.ndarray, alpha: np.ndarray, kappa: np.ndarray) -> np.ndarray:
         root = (cosine - sine) * (cosine + sine)
         total += weight * t * root * np.exp(-(2.0 * ks * sine * sine + kv * t)) * i0e(ks * root)
     scale = -kappa / np.expm1(-2.0 * kappa)
-    return exp_minus(*_least_exponent(v, alpha)) * (scale * reach * total)
+    return scale * reach * total
 
 
 def _sigma(u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
@@ -102,7 +103,8 @@ def _sigma(u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
     scale = np.minimum(alpha / SMALLEST, 1.0)
     alpha = np.clip(alpha, SMALLEST, LARGEST)
     kappa = 2.0 / alpha**2
-    dark = scale * _dark(np.minimum(np.abs(u) / scale, 1.0), alpha, kappa)
+    v = np.minimum(np.abs(u) / scale, 1.0)
+    dark = scale * (exp_minus(*_least_exponent(v, alpha)) * dark_shape(v, kappa))
     # sigma(u) - sigma(-u) = (coth kappa - 1/kappa) u
     sigma[inside] = np.where(u > 0.0, dark + mean_cosine(kappa) * u, dark)
     return sigma
