@@ -17,13 +17,13 @@ Vector = tuple[Expr, ...]
 T = Symbol("t", real=True)
 D = Function("D", real=True)
 NORMAL = tuple(Function(f"m_{axis}", real=True) for axis in "xyz")
-# Two arcs of great circles: neither is symmetric, and both have a mean normal of no special direction.
-ROUND = (lambda t: 2 * t / (1 + t**2), lambda t: (1 - t**2) / (1 + t**2))
+# Two lists of flakes, neither symmetric, each with a mean normal of no special direction. A normal that is longer than 1
+# counts for as much more area.
 TRIED = {
     D: (lambda t: 1 + t, lambda t: 2 - t**2),
-    NORMAL[0]: (ROUND[0], lambda t: Rational(-5, 13) * ROUND[1](t)),
-    NORMAL[1]: (lambda t: Rational(3, 5) * ROUND[1](t), ROUND[0]),
-    NORMAL[2]: (lambda t: Rational(4, 5) * ROUND[1](t), lambda t: Rational(12, 13) * ROUND[1](t)),
+    NORMAL[0]: (lambda t: t, lambda t: 1 - 2 * t),
+    NORMAL[1]: (lambda t: Rational(3, 5), lambda t: t),
+    NORMAL[2]: (lambda t: Rational(4, 5) - t, lambda t: Rational(-1, 3)),
 }
 
 
