@@ -11,7 +11,6 @@ from sympy import Function, Integral, Max, Ne, Rational, exp, oo, pi, sign, symb
 
 from derivations.extensions.reciprocity import (
     BOTH_WAYS,
-    in_and_out,
     n,
     outside,
     reals,
@@ -19,7 +18,7 @@ from derivations.extensions.reciprocity import (
 )
 from derivations.extensions.reciprocity_examples import facet_brdf, harmonic
 from xsec_sym.exact import RingCrossSection, SigmaGGX
-from xsec_sym.exact.reciprocity import TRIED, dot, normal
+from xsec_sym.exact.reciprocity import dot
 from xsec_sym.proof import Source, integers, interval
 
 paper = Source("dupuy2016", section="4.1")
@@ -30,7 +29,8 @@ M_x, M_y, M_z = M = symbols("M_x M_y M_z", real=True)
 E_1, E_2 = symbols("E_1 E_2", real=True)
 m = symbols("m_x m_y m_z", real=True)
 omega = symbols("omega_x omega_y omega_z", real=True)
-r_1, r_2, r_3 = (symbols(f"x_{i} y_{i} z_{i}", real=True) for i in (1, 2, 3))
+r_1 = (0, 0, 0)  # the origin: only distances count
+r_2, r_3 = (symbols(f"x_{i} y_{i} z_{i}", real=True) for i in (2, 3))
 
 ROUGH = interval(alpha, 0, oo, open=True)
 LONG = interval(ell, 0, oo)
@@ -49,18 +49,18 @@ def visibility(start, end, mean, area):
 flake = paper.claim(
     "claim.figure-6.flake",
     "a flake with one side blocks light from that side, and lets light from the other side through",
-    left=Max(0, -dot(omega, m)) * Max(0, dot(omega, m)),
+    left=Max(0, -u) * Max(0, u),
     printed=0,
-    where=reals(*omega, *m),
-    reading="D = delta at m: of sigma(omega) = <-omega, m> and sigma(-omega) one is 0",
+    where=[interval(u, -1, 1)],
+    reading="D = delta at m, u = omega . m: of sigma(omega) = <-omega, m> and sigma(-omega) one is 0",
     statement=True,
 )
 
 
 @flake.proof
 def one_side(step):
-    cosine = dot(omega, m)
-    step.rewrite(step.left, Max(0, cosine) * (Max(0, cosine) - cosine))
+    for side in step.cases(u):
+        side.settle()
 
 
 def asymmetry(f, v):
@@ -68,19 +68,18 @@ def asymmetry(f, v):
     return sign((f - f.subs(v, -v)) ** 2)
 
 
-density = (1 + b * x + c * (5 * x**3 - 3 * x) / 2) / (4 * pi)
+density = (1 + c * (5 * x**3 - 3 * x) / 2) / (4 * pi)
 
 paper.claim(
     "claim.figure-6.non-symmetric",
     "where D is not symmetric, the transport is not reciprocal",
-    left=asymmetry(harmonic.form, u),
+    left=asymmetry(harmonic.form.subs(b, 0), u),
     printed=asymmetry(density, x),
-    where=[interval(b, -1, 1), interval(c, -1, 1), interval(u, 0, 1, open=True), interval(x, 0, Rational(1, 2),
-           open=True)],
-    reading="1 for yes, on D(x) = (1 + b x + c P_3(x)) / (4 pi), per steradian, whose sigma(u) is 1/4 + b u / 6 by "
+    where=[interval(c, 0, 1, open="left"), *(interval(v, 0, Rational(1, 2), open=True) for v in (u, x))],
+    reading="1 for yes, on D(x) = (1 + c P_3(x)) / (4 pi), per steradian, whose sigma is 1/4 from everywhere by "
     "xsec:reciprocity-harmonic. It takes more than asymmetry: sigma is symmetric exactly where M = 0",
     statement=True,
-)  # fmt: skip
+)
 
 paper.whole(
     "claim.figure-6",
@@ -169,7 +168,7 @@ ratio = paper.claim(
     "the visibility over that of the way back: 1 exactly where the way is orthogonal to M",
     left=visibility(r_1, r_2, M, E_1) / visibility(r_2, r_1, M, E_1),
     corrected=exp(dot((v - w for v, w in zip(r_2, r_1, strict=True)), M)),
-    where=[*reals(*r_1, *r_2, *M), interval(E_1, 0, oo)],
+    where=[*reals(*r_2, *M), interval(E_1, 0, oo)],
     reading=BOTH_WAYS,
 )
 ratio.proof(lambda step: None)
@@ -219,7 +218,7 @@ depth = paper.claim(
     "what breaks the reciprocity inside is the change of depth, and nothing else",
     left=visibility(r_1, r_2, (0, 0, M_z), E_1) / visibility(r_2, r_1, (0, 0, M_z), E_1),
     printed=exp(M_z * (r_2[2] - r_1[2])),
-    where=[*reals(*r_1, *r_2, M_z), interval(E_1, 0, oo)],
+    where=[*reals(*r_2, M_z), interval(E_1, 0, oo)],
     reading=BOTH_WAYS + ", if " + ALONG,
     statement=True,
 )
@@ -239,7 +238,7 @@ def back(mean):
     return visibility(level, r_2, mean, E_2) * visibility(r_2, r_1, mean, E_1)
 
 
-SPACE = [*reals(*r_1, *r_2, *r_3[:2]), interval(E_1, 0, oo), interval(E_2, 0, oo)]
+SPACE = [*reals(*r_2, *r_3[:2]), interval(E_1, 0, oo), interval(E_2, 0, oo)]
 
 same = paper.claim(
     "24",
@@ -253,10 +252,10 @@ same = paper.claim(
 lateral = paper.claim(
     "24.lateral",
     "the same for any D: the lateral part of M counts, over the lateral distance of the end points",
-    left=there(M),
-    corrected=back(M) * exp(M_x * (r_3[0] - r_1[0]) + M_y * (r_3[1] - r_1[1])),
+    left=there(M) / back(M),
+    corrected=exp(M_x * (r_3[0] - r_1[0]) + M_y * (r_3[1] - r_1[1])),
     where=[*SPACE, *reals(*M)],
-    reading=BOTH_WAYS,
+    reading=BOTH_WAYS + "; the left side of (24) over its right side",
 )
 
 paper.claim(
@@ -264,8 +263,12 @@ paper.claim(
     "the attenuation is the same both ways whenever the end points are at one height, whatever D",
     left=there(M),
     printed=back(M),
-    where=[*SPACE, *reals(*M)],
-    reading=BOTH_WAYS + ". The text asks nothing of D; 24 says what it needs, and 24.lateral what holds without",
+    where=[
+        *(interval(v, -1, 1) for v in (*r_2, *r_3[:2], *M)),
+        *(interval(v, 5, 6) for v in (E_1, E_2)),
+    ],
+    reading=BOTH_WAYS
+    + ", E_1 and E_2 so large that no visibility is above 1. The text asks nothing of D; 24 says what it needs, and 24.lateral what holds without",
     statement=True,
 )
 
@@ -289,23 +292,25 @@ above.proof(lambda step: step.lemma(outside))
 
 a = symbols("a", real=True)
 p, q = symbols("p_x p_y", real=True), symbols("q_x q_y", real=True)
+tilted = (m[0], 0, m[2])
 
 paper.claim(
     "claim.height-field",
     "if D is a height field, the emerging transport is reciprocal",
-    left=facet_brdf(m, p, q),
-    printed=facet_brdf(m, q, p),
-    where=[*reals(*p, *q, *m), interval(a, 0, 1, open="left"), dot((*p, 1), m) > 0, dot((*q, 1), m) > 0],
-    reading="a height field as (17) defines it, D = delta(m) / m_z, with diffuse facets of albedo a. It holds for a "
+    left=facet_brdf(tilted, p, q),
+    printed=facet_brdf(tilted, q, p),
+    where=[*reals(*p, *q, *m[::2]), interval(a, 0, 1, open="left"), dot((*p, 1), tilted) > 0, dot((*q, 1), tilted) > 0],
+    reading="a height field as (17) defines it, D = delta(m) / m_z, m = (m_x, 0, m_z), with diffuse facets of albedo "
+    "a: their whole BRDF, see xsec:reciprocity-facet. The statement holds for a "
     "height field whose mean slope is 0, that is, M along the macroscopic normal: xsec:reciprocity.if",
     statement=True,
 )
 
 
 def two_sided(lateral_in, lateral_out):
-    """The denominator of single scattering, for the flakes and their opposites."""
-    one = in_and_out(lateral_in, lateral_out)
-    return one + one.subs({v: -v for v in normal()}, simultaneous=True)
+    """The denominator of single scattering for one flake and its opposite."""
+    seen = (dot((*lateral, 1), m) for lateral in (lateral_in, lateral_out))
+    return sum(Max(0, -v) + Max(0, v) for v in seen)
 
 
 symmetric = paper.claim(
@@ -313,10 +318,10 @@ symmetric = paper.claim(
     "if D is symmetric, the emerging transport is reciprocal",
     left=two_sided(p, q),
     printed=two_sided(q, p),
-    where=reals(*p, *q),
-    instances=TRIED,
-    reading="any D as a list of normals, and their opposites; the denominator of single scattering, of which M = 0. "
-    "Of all orders it is xsec:reciprocity.if, for a reciprocal micro-BSDF",
+    where=reals(*p, *q, *m),
+    reading="flake by flake, each with its opposite: the denominator of single scattering with i and o swapped, "
+    "i / cos = (p, 1) and o / cos = (q, 1). Of all orders it is xsec:reciprocity.if with M = 0, for a reciprocal "
+    "micro-BSDF",
     statement=True,
 )
 symmetric.proof(lambda step: None)

@@ -30,16 +30,14 @@ Heights whose mean slope is 0 (M is the normal) and symmetric distributions (M =
 `reciprocity_examples.py` has others, and distributions that are not reciprocal.
 """
 
-from sympy import Function, Integral, Max, Rational, Sum, diff, exp, oo, symbols
+from sympy import Abs, Function, Integral, Max, Rational, Sum, diff, exp, oo, symbols
 
 from xsec_sym.exact.reciprocity import (
     TRIED,
     dot,
     less,
     mean_normal,
-    normal,
     opposite,
-    over_normals,
     projected_area,
 )
 from xsec_sym.proof import Source, integers, interval
@@ -57,7 +55,6 @@ def reals(*names):
 omega = symbols("omega_x omega_y omega_z", real=True)
 M = symbols("M_x M_y M_z", real=True)
 ell, s = symbols("ell s", real=True)
-c = dot(omega, normal())
 
 
 # --- opposite directions --------------------------------------------------------------------------------
@@ -72,24 +69,24 @@ odd = project.claim(
     reading=ANY + "; max(0, c) - max(0, -c) = c",
 )
 
+cosine = symbols("c", real=True)
+
 even = project.claim(
     "reciprocity-even",
-    "the mean of opposite directions: the cross-section of flakes with two sides, of half the area each",
-    left=projected_area(opposite(omega)) + projected_area(omega),
-    corrected=over_normals(2 * Max(0, c) - c),
-    where=reals(*omega),
-    instances=TRIED,
-    reading=ANY + "; 2 max(0, c) - c = |c|",
+    "the mean of opposite directions is the cross-section of flakes with two sides, of half the area each",
+    left=Max(0, cosine) + Max(0, -cosine),
+    corrected=Abs(cosine),
+    where=reals(cosine),
+    reading="flake by flake, c = omega . m",
 )
 
 thickness = project.claim(
     "reciprocity-thickness",
     "the optical thickness of a straight way is the cross-section of the way as a vector",
-    left=ell * projected_area(omega),
-    corrected=projected_area(tuple(ell * w for w in omega)),
-    where=[*reals(*omega), interval(ell, 0, oo, open=True)],
-    instances=TRIED,
-    reading=ANY,
+    left=ell * Max(0, -cosine),
+    corrected=Max(0, -ell * cosine),
+    where=[*reals(cosine), interval(ell, 0, oo)],
+    reading="flake by flake, c = omega . m; ell omega is the way",
 )
 
 bound = project.inequality(
@@ -112,8 +109,23 @@ along_the_axes = project.claim(
     reading=ANY + "; where the left side is 0, each component of M is",
 )
 
-for claim in (odd, even, thickness, along_the_axes):
-    claim.proof(lambda step: None)
+odd.proof(lambda step: None)
+along_the_axes.proof(lambda step: None)
+
+
+@even.proof
+def either_side(step):
+    for side in step.cases(cosine):
+        side.settle()
+
+
+@thickness.proof
+def scale(step):
+    for long in step.cases(ell):
+        if long.is_empty:
+            long.vacuous()
+        else:
+            long.settle()
 
 
 @bound.proof
@@ -131,21 +143,6 @@ project.whole(
 
 
 # --- paths ----------------------------------------------------------------------------------------------
-
-first, second = (tuple(symbols(f"x_{i} y_{i} z_{i}", real=True)) for i in (1, 2))
-whole_way = tuple(a + b for a, b in zip(first, second, strict=True))
-
-two = project.claim(
-    "reciprocity-two-segments",
-    "by how much the way back over two segments is thicker than the way there",
-    left=sum(projected_area(opposite(d)) - projected_area(d) for d in (first, second)),
-    corrected=dot(whole_way, mean_normal()),
-    where=reals(*first, *second),
-    instances=TRIED,
-    reading=ANY + "; the segments are r_2 - r_1 and r_3 - r_2. The product of the two visibilities is exp(M . (r_3 - "
-    "r_1)) times that of the reverse: the same exactly where r_3 - r_1 is orthogonal to M",
-)
-two.proof(lambda step: None)
 
 n = symbols("n", integer=True, nonnegative=True)
 j = symbols("j", integer=True, positive=True)
@@ -202,8 +199,11 @@ def micro(i, o):
 
 
 def vertex(before, after):
-    """One flake's part in sigma f_p, by (5) and (6): what turns travel along ``before`` into travel along ``after``."""
-    return micro(opposite(before), after) * Max(0, dot(after, m)) * Max(0, -dot(before, m))
+    """One flake's part in sigma f_p, by (5) and (6): what turns travel along ``before`` into travel along ``after``.
+
+    The axes are the flake's own, the third its normal.
+    """
+    return micro(opposite(before), after) * Max(0, after[2]) * Max(0, -before[2])
 
 
 project.claim(
@@ -211,10 +211,10 @@ project.claim(
     "sigma f_p is the same for a path and its reverse, flake by flake",
     left=vertex(omega, out),
     corrected=vertex(opposite(out), opposite(omega)),
-    where=[interval(v, -1, 1) for v in (*omega, *out, *m)],
+    where=[interval(v, -1, 1) for v in (*omega, *out)],
     instances=BSDF,
-    reading="f = (g(i, o) + g(o, i)) / 2 with any g is any reciprocal micro-BSDF; it may depend on m as well. D is a "
-    "factor on both sides, over which both are integrated",
+    reading="f = (g(i, o) + g(o, i)) / 2 with any g is any reciprocal micro-BSDF; it may differ from flake to flake. "
+    "The axes are the flake's own. D is a factor on both sides, over which both are integrated",
 ).proof(lambda step: None)
 
 

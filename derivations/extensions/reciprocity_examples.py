@@ -32,13 +32,15 @@ def facet_brdf(normal, lateral_in, lateral_out):
     return scattered / (Max(0, into) + Max(0, -out))
 
 
+tilted = (m[0], 0, m[2])  # the first axis is the one that the normal leans to
+
 facet = project.claim(
     "reciprocity-facet",
     "diffuse flakes that all face m: the BRDF is a / pi times o . m / cos(theta_o), which is not reciprocal",
-    left=facet_brdf(m, p, q),
-    corrected=albedo / pi * dot((*q, 1), m),
-    where=[*reals(*p, *q, *m), ALBEDO, dot((*p, 1), m) > 0, dot((*q, 1), m) > 0],
-    reading="K / (c_i c_o) over the denominator of xsec:reciprocity-single. It is the whole BRDF: sigma(o) = <-o, m> "
+    left=facet_brdf(tilted, p, q),
+    corrected=albedo / pi * dot((*q, 1), tilted),
+    where=[*reals(*p, *q, *m[::2]), ALBEDO, dot((*p, 1), tilted) > 0, dot((*q, 1), tilted) > 0],
+    reading="m = (m_x, 0, m_z). The left side is K / (c_i c_o) over the denominator of xsec:reciprocity-single. It is the whole BRDF: sigma(o) = <-o, m> "
     "= 0, so that light which a flake has scattered meets no other. D = delta(m) / m_z is a height field with unit "
     "projected area, dupuy2016 (17)",
 )

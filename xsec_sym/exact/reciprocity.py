@@ -17,8 +17,8 @@ Vector = tuple[Expr, ...]
 T = Symbol("t", real=True)
 D = Function("D", real=True)
 NORMAL = tuple(Function(f"m_{axis}", real=True) for axis in "xyz")
-# Two lists of flakes, neither symmetric, each with a mean normal of no special direction. A normal that is longer than 1
-# counts for as much more area.
+# Two lists of flakes, neither symmetric, each with a mean normal of no special direction. What counts as the area of a
+# flake is D times the length of its normal.
 TRIED = {
     D: (lambda t: 1 + t, lambda t: 2 - t**2),
     NORMAL[0]: (lambda t: t, lambda t: 1 - 2 * t),
