@@ -267,8 +267,8 @@ paper.claim(
         *(interval(v, -1, 1) for v in (*r_2, *r_3[:2], *M)),
         *(interval(v, 5, 6) for v in (E_1, E_2)),
     ],
-    reading=BOTH_WAYS
-    + ", E_1 and E_2 so large that no visibility is above 1. The text asks nothing of D; 24 says what it needs, and 24.lateral what holds without",
+    reading=BOTH_WAYS + ", E_1 and E_2 so large that no visibility is above 1. The text "
+    "asks nothing of D; 24 says what it needs, and 24.lateral what holds without",
     statement=True,
 )
 
@@ -307,21 +307,20 @@ paper.claim(
 )
 
 
-def two_sided(lateral_in, lateral_out):
-    """The denominator of single scattering for one flake and its opposite."""
-    seen = (dot((*lateral, 1), m) for lateral in (lateral_in, lateral_out))
-    return sum(Max(0, -v) + Max(0, v) for v in seen)
+def two_sided(into, out):
+    """The denominator of single scattering for one flake and its opposite, seen under cosines over cos(theta)."""
+    return sum(Max(0, side * into) + Max(0, -side * out) for side in (1, -1))
 
 
 symmetric = paper.claim(
     "claim.symmetric",
     "if D is symmetric, the emerging transport is reciprocal",
-    left=two_sided(p, q),
-    printed=two_sided(q, p),
-    where=reals(*p, *q, *m),
-    reading="flake by flake, each with its opposite: the denominator of single scattering with i and o swapped, "
-    "i / cos = (p, 1) and o / cos = (q, 1). Of all orders it is xsec:reciprocity.if with M = 0, for a reciprocal "
-    "micro-BSDF",
+    left=two_sided(b, c),
+    printed=two_sided(c, b),
+    where=reals(b, c),
+    reading="flake by flake, each with its opposite: the denominator of single scattering with i and o swapped, b and "
+    "c being i . m / cos(theta_i) and o . m / cos(theta_o). Of all orders it is xsec:reciprocity.if with M = 0, for "
+    "a reciprocal micro-BSDF",
     statement=True,
 )
 symmetric.proof(lambda step: None)

@@ -124,8 +124,9 @@ def scale(step):
     for long in step.cases(ell):
         if long.is_empty:
             long.vacuous()
-        else:
-            long.settle()
+        elif long.goal.piece.facts_about(ell):
+            for side in long.cases(cosine):
+                side.settle()
 
 
 @bound.proof

@@ -40,9 +40,9 @@ facet = project.claim(
     left=facet_brdf(tilted, p, q),
     corrected=albedo / pi * dot((*q, 1), tilted),
     where=[*reals(*p, *q, *m[::2]), ALBEDO, dot((*p, 1), tilted) > 0, dot((*q, 1), tilted) > 0],
-    reading="m = (m_x, 0, m_z). The left side is K / (c_i c_o) over the denominator of xsec:reciprocity-single. It is the whole BRDF: sigma(o) = <-o, m> "
-    "= 0, so that light which a flake has scattered meets no other. D = delta(m) / m_z is a height field with unit "
-    "projected area, dupuy2016 (17)",
+    reading="m = (m_x, 0, m_z). The left side is K / (c_i c_o) over the denominator of xsec:reciprocity-single. It is "
+    "the whole BRDF: sigma(o) = <-o, m> = 0, so that light which a flake has scattered meets no other. D = delta(m) / "
+    "m_z is a height field with unit projected area, dupuy2016 (17)",
 )
 
 numbers = project.claim(
