@@ -7,7 +7,7 @@ these terms, and its pictures on the distributions that they show. Its open ques
 `derivations/extensions/reciprocity.py`.
 """
 
-from sympy import Function, Integral, Max, Ne, Rational, exp, oo, pi, sign, symbols
+from sympy import Function, Integral, Max, Ne, Rational, exp, oo, pi, sign, symbols, true
 
 from derivations.extensions.reciprocity import (
     BOTH_WAYS,
@@ -210,6 +210,7 @@ paper.whole(
     "in general the visibility is not reciprocal",
     ["23.ratio", "23.witness"],
     left=Ne(V(*ends), V(ends[2], -ends[1], ends[0])),
+    printed=true,
     reading="in general: it is so for one D, GGX, and for any D over every way that is not orthogonal to M",
 )
 
