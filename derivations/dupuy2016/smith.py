@@ -57,7 +57,10 @@ paper.definition(
     reading="over the whole sphere, D per steradian and 0 in the hemisphere away from omega_g; it is a condition on D",
 )
 
-for name, normals, proven in (("beckmann", NormalsBeckmann, "deon2016:19.norm"), ("ggx", NormalsGGX, "deon2016:24.norm")):
+for name, normals, proven in (
+    ("beckmann", NormalsBeckmann, "deon2016:19.norm"),
+    ("ggx", NormalsGGX, "deon2016:24.norm"),
+):
     paper.claim(
         f"17.{name}",
         f"the distribution of {name} meets the condition",

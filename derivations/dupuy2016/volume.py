@@ -5,18 +5,17 @@ with omega . omega_m < 0, so (4) is the extinction of light travelling along ome
 the distribution of normals summed over the azimuths about it: any distribution can be written so.
 """
 
-from sympy import Function, Heaviside, Integral, Max, Piecewise, Rational, cos, diff, exp, log, oo, pi, sin, sqrt, symbols
+from sympy import Function, Heaviside, Integral, Max, Piecewise, cos, diff, exp, log, oo, pi, sqrt, symbols
 
-from derivations.kenha2018.surface import on_the_sphere, reflected
 from derivations.kenha2018.surface import normal as mirror_normal
+from derivations.kenha2018.surface import on_the_sphere, phi, reflected
 from derivations.kenha2018.surface import theta as half
-from xsec_sym.exact import RingCrossSection, ahead, behind
 from xsec_sym.exact.smith import COSINE as c
 from xsec_sym.proof import Source, interval
 
 paper = Source("dupuy2016", section="2")
 
-u, x, y, t, ell, z, U, w, albedo = symbols("u x y t ell z U w a", real=True)
+u, x, y, t, p, q, ell, z, U, albedo = symbols("u x y t p q ell z U a", real=True)
 sigma, source, radiance, cosine = symbols("sigma S L_0 cos(theta)", real=True)
 up, down = symbols("D_+ D_-", real=True)
 omega, omega_1, omega_2, omega_m = symbols("omega omega_1 omega_2 omega_m", real=True)
@@ -105,7 +104,8 @@ symmetric = paper.claim(
 @symmetric.proof
 def face_by_face(step):
     """Falling light meets upward faces, rising light downward ones."""
-    step.swap().split(0)
+    for branch in step.cases(u):
+        branch.settle().swap().split(0)
 
 
 sent = inscattered.left
@@ -124,9 +124,12 @@ balance = paper.claim(
 
 @balance.proof
 def hemispheres(step):
-    step.split(0, integral=step.over(-1, 1))
-    step.antiderivative(2 * down * rising * (-(u**2)) / 2, step.over(-1, 0))
-    step.antiderivative(2 * up * falling * u**2 / 2, step.over(0, 1))
+    step.split(0)
+    for _ in range(2):
+        over_u = next(i for i in step.integrals if i.limits[0][0] == u)
+        step.linear(over_u.function, integral=over_u)
+        over_u = next(i for i in step.integrals if i.limits[0][0] == u)
+        step.antiderivative(u**2 / 2, over_u)
     step.swap().split(0)
 
 
@@ -139,7 +142,13 @@ as_printed = paper.claim(
     instances=BEAMS,
     reading=FLAKES,
 )
-as_printed.proof(lambda step: step.split(0))
+
+
+@as_printed.proof
+def face_by_wrong_face(step):
+    for branch in step.cases(u):
+        branch.split(0).swap().settle()
+
 
 paper.claim(
     "claim.balance",
@@ -171,34 +180,28 @@ paper.definition(
     reading="over the whole sphere, D per steradian; seen by a viewer in the direction -omega_1",
 )
 
-HIDDEN = 1 + x**3 - 3 * x / 5  # positive; x^3 - 3 x / 5 is orthogonal to x
+THREE = (p, (-p + sqrt(3) * q) / 2, (-p - sqrt(3) * q) / 2)  # cosines with omega of three normals at right angles to z
+TRIANGLE = "three flakes alike, their normals at 120 degrees in a plane, (p, q) being omega in that plane"
 
 hidden = paper.claim(
     "4.hidden-asymmetry",
     "a distribution that is not symmetric, with a projected area that is",
-    left=Integral((RingCrossSection(x, u) - RingCrossSection(x, -u)) * HIDDEN, (x, -1, 1)),
-    corrected=0,
-    where=[interval(u, 0, 1, open="left")],
-    reading="D = 1 + x^3 - 3 x / 5 with x = cos(theta_m): sigma(-omega) - sigma(omega) is omega . M, and M = 0",
-    reduces=("deon2016:9", "deon2016:10", "deon2016:11", "deon2016:12"),
-    points={x: [-sqrt(1 - u**2), sqrt(1 - u**2)]},
+    left=sum(Max(0, -cosine_m) for cosine_m in THREE),
+    corrected=sum(Max(0, cosine_m) for cosine_m in THREE),
+    where=[interval(p, -1, 1), interval(q, -1, 1)],
+    reading=TRIANGLE
+    + "; sigma(omega) on the left, sigma(-omega) on the right. They differ by omega . M, and here M = 0",
 )
-
-
-@hidden.proof
-def only_the_mean_cosine_is_odd(step):
-    step.lemma("xsec:ring-lemma", {x: x, u: u}).lemma("xsec:ring-lemma", {x: x, u: -u})
-    step.linear(2 * pi * u * x * HIDDEN).antiderivative(2 * pi * u * (x**2 / 2 + x**5 / 5 - x**3 / 5))
-
+hidden.proof(lambda step: None)
 
 paper.claim(
     "claim.asymmetric",
     "whenever D is not symmetric, sigma is not symmetric",
-    left=HIDDEN - HIDDEN.subs(x, -x),
+    left=sum(cosine_m**3 for cosine_m in THREE),
     printed=0,
-    where=[interval(x, -1, 1)],
-    reading="tried the other way round: a D with a symmetric sigma would be symmetric. D = 1 + x^3 - 3 x / 5 has one "
-    "(4.hidden-asymmetry) and is not. Only the part of D along x shows in sigma(-omega) - sigma(omega)",
+    where=[interval(p, -1, 1), interval(q, -1, 1)],
+    reading="tried the other way round: a D with a symmetric sigma would be symmetric, and have no third moment along "
+    "any omega. " + TRIANGLE + ": sigma is symmetric (4.hidden-asymmetry), D is not. What shows in sigma is M alone",
     statement=True,
 )
 
@@ -209,9 +212,7 @@ paper.definition(
     "5",
     "the phase function",
     left=f_p(omega_1, omega_2),
-    printed=Integral(
-        f_s(omega_m, -omega_1, omega_2) * Max(0, leaving) * D_vis(omega_m, omega_1), omega_m
-    ),
+    printed=Integral(f_s(omega_m, -omega_1, omega_2) * Max(0, leaving) * D_vis(omega_m, omega_1), omega_m),
     reading="from omega_1 into omega_2; the clamp about omega_2 . omega_m leaves out what a flake lets through",
 )
 
@@ -231,14 +232,14 @@ paper.claim(
     corrected=1,
     instances=FACETS,
     reading=AROUND + "; for any D, where sigma is not 0",
-).proof(lambda step: None)
+).proof(lambda step: step.linear(step.left.function))
 
 paper.claim(
     "5.mirror.jacobian",
     "mirror flakes: the solid angle of omega_2 is 4 omega_h . omega_2 times that of the normals",
     left=on_the_sphere(reflected) / on_the_sphere(mirror_normal),
     corrected=4 * cos(half),
-    where=[interval(half, 0, pi / 2, open=True)],
+    where=[interval(half, 0, pi / 2, open=True), interval(phi, 0, 2 * pi)],
     reading="theta_m is the angle between -omega_1 and omega_m = omega_h; so f_p = D_vis(omega_h) / (4 omega_h . omega_2)",
 ).proof(lambda step: None)
 
@@ -258,28 +259,18 @@ def half_vector(step):
     step.substitute(t, 2 * t**2 - 1, 0, 1, step.over(-1, 1))
 
 
-TURNED = ("deon2016:9", "deon2016:10", "deon2016:11", "deon2016:12")
-lambertian = Integral(RingCrossSection(x, u) * albedo / pi, (x, -1, 1))
+lambertian = Integral(2 * pi * Max(0, x) * albedo / pi, (x, -1, 1))
 
 diffuse = paper.claim(
     "5.diffuse.norm",
     "diffuse flakes: each sends out the share a of what it takes",
     left=lambertian,
     corrected=albedo,
-    where=[interval(u, -1, 1), interval(albedo, 0, 1)],
-    reading="f_s = a / pi, over all omega_2, x = cos(theta_2), for a flake whose normal has the cosine u; averaged over "
-    "D_vis, whose integral is 1 (6.norm), it is the integral of f_p. The clamp leaves out the dark half, where f_s = 0",
-    reduces=TURNED,
-    points={x: [-sqrt(1 - u**2), sqrt(1 - u**2)]},
+    where=[interval(albedo, 0, 1)],
+    reading="f_s = a / pi, over all omega_2, x = omega_2 . omega_m; averaged over D_vis, whose integral is 1 (6.norm), "
+    "it is the integral of f_p. The clamp leaves out the dark half, where f_s = 0",
 )
-
-
-@diffuse.proof
-def every_direction_alike(step):
-    isotropic = Integral(RingCrossSection(x, u) / (4 * pi), (x, -1, 1))
-    step.linear(RingCrossSection(x, u) / (4 * pi) * 4 * albedo)
-    step.rewrite(Integral(RingCrossSection(x, u), (x, -1, 1)), 4 * pi * isotropic)
-    step.lemma("xsec:isotropic", {u: u})
+diffuse.proof(lambda step: step.split(0).antiderivative(albedo * x**2))
 
 
 # --- coefficients ---------------------------------------------------------------------------------------
@@ -297,10 +288,9 @@ paper.claim(
     "by (2), (5) and (7) flakes of the albedo a scatter the share a of what they stop",
     left=albedo * lambertian,
     printed=albedo,
-    where=[interval(u, -1, 1), interval(albedo, 0, 1)],
+    where=[interval(albedo, 0, 1)],
     reading="sigma_s / sigma_t times the integral of f_p, f_p by (5) with a BSDF of the albedo a, f_s = a / pi: the albedo "
     "then counts twice. Either f_s is normalised, or sigma_s = sigma_t and f_p carries the albedo, as in (27)",
-    reduces=TURNED,
     statement=True,
 )
 
@@ -428,6 +418,7 @@ paper.claim(
     statement=True,
 )
 
+PATHS = interval(ell, 0, 20 / sigma)
 stopped = Integral(sigma * exp(-sigma * t), (t, 0, ell))
 
 inverted = paper.claim(
@@ -435,15 +426,15 @@ inverted = paper.claim(
     "the free path by its share of shorter ones",
     left=ell,
     printed=-log(1 - stopped) / sigma,
-    where=[DENSE, LONG],
-    reading="U is the share of free paths shorter than l, by (9)",
+    where=[DENSE, PATHS],
+    reading="U is the share of free paths shorter than l, by (9); l up to 20 mean free paths, as the digits allow",
 )
 through_the_area = paper.claim(
     "10.2",
     "the free path by the projected area",
-    left=medium(z) * ell,
-    printed=-log(1 - stopped) / sigma,
-    where=[*INSIDE, LONG],
+    left=ell,
+    printed=-log(1 - stopped.subs(sigma, medium(z) * sigma)) / sigma,
+    where=[*INSIDE, PATHS],
     reading="the same with sigma_t = rho sigma, by (8)",
 )
 back = paper.claim(
