@@ -129,7 +129,6 @@ moment = paper.claim(
     "the two projected areas differ by omega . M, M the sum of all normals",
     left=ahead(A) - behind(A),
     corrected=Integral(COSINE * A(COSINE), (COSINE, -1, 1)),
-    where=[],
     instances=FACETS,
     reading=AROUND + "; omega . M is the integral of (omega . omega_m) D over the sphere",
 )
@@ -215,7 +214,6 @@ level = paper.claim(
     "only a non-symmetric distribution can act like a surface: a symmetric one has the same area from both sides",
     left=ahead(lambda c: A(c) + A(-c)),
     corrected=behind(lambda c: A(c) + A(-c)),
-    where=[],
     instances=FACETS,
     reading=AROUND + "; by (18) and (19) a surface needs sigma(-omega_i) - sigma(omega_i) = cos(theta_i)",
     statement=True,
@@ -255,7 +253,6 @@ sampled_one = paper.claim(
     "the mean visibility as an integral over uniform numbers",
     left=mean(V(z)),
     printed=Integral(V(log(U)), (U, 0, 1)),
-    where=[],
     instances=SEEN,
     reading="r(U) is the point at the height log(U); V is any visibility of its height",
 )
@@ -264,7 +261,6 @@ sampled_two = paper.claim(
     "the mean of both visibilities as an integral over uniform numbers",
     left=mean(V(z) * W(z)),
     printed=Integral(V(log(U)) * W(log(U)), (U, 0, 1)),
-    where=[],
     instances=SEEN,
     reading="r(U) is the point at the height log(U)",
 )
@@ -316,7 +312,7 @@ masking = paper.claim(
     "the masking function by Lambda",
     left=mean(visible(L_i * c_i, c_i)),
     printed=1 / (1 + L_i),
-    where=[LAMBDAS[0], COSINES[0]],
+    where=[LAMBDAS[0]],
     reading=OUTWARD + "; sigma(omega_i) = Lambda cos(theta_i), by (18)",
 )
 bistatic = paper.claim(
@@ -324,7 +320,7 @@ bistatic = paper.claim(
     "the masking-shadowing function by Lambda",
     left=mean(visible(L_i * c_i, c_i) * visible(L_o * c_o, c_o)),
     printed=1 / (1 + L_i + L_o),
-    where=[*LAMBDAS, *COSINES],
+    where=LAMBDAS,
     reading=OUTWARD + "; sigma(omega) = Lambda cos(theta), by (18)",
 )
 
@@ -348,7 +344,7 @@ for number, title, left, printed in (
 
 # --- shadowing of what is seen --------------------------------------------------------------------------
 
-# The path comes in along -omega_i, so that its collisions are spaced by sigma(-omega_i) = cos(theta_i) + sigma(omega_i).
+# The path comes in along -omega_i: its collisions are spaced by sigma(-omega_i) = cos(theta_i) + sigma(omega_i).
 s_in = c_i + s_i
 PATH = "the path enters along -omega_i, so its first collision lies at the length l with the density "
 PATH += "sigma(-omega_i) exp(-sigma(-omega_i) l), by (9), and at the depth l cos(theta_i); "
@@ -395,7 +391,7 @@ by_lambdas = paper.claim(
     "shadowing given masking by Lambda",
     left=from_the_path((1 + L_i) * c_i, L_o * c_o, c_i, c_o),
     printed=(1 + L_i) / (1 + L_i + L_o),
-    where=[*LAMBDAS, *COSINES],
+    where=[*LAMBDAS, COSINES[0]],
     reading=PATH,
 )
 
@@ -431,7 +427,7 @@ conditional = paper.claim(
     "line 3 is the conditional mean: both visibilities over the first",
     left=weights,
     corrected=(1 + L_i) / (1 + L_i + L_o),
-    where=[*LAMBDAS, *COSINES],
+    where=LAMBDAS,
     reading="heights by (16), weighted by V_i, which is what the left side of (22) says without its path",
 )
 
@@ -440,7 +436,7 @@ bayes = paper.claim(
     "the collisions of a path from omega_i lie where points seen from omega_i lie",
     left=(1 + L_i) * exp((1 + L_i) * x),
     corrected=exp(x) * visible(L_i * c_i, c_i).subs(z, x) / mean(visible(L_i * c_i, c_i)),
-    where=[interval(x, -oo, 0), LAMBDAS[0], COSINES[0]],
+    where=[interval(x, -oo, 0), LAMBDAS[0]],
     reading="densities over the height: (9) with sigma(-omega_i) = (1 + Lambda) cos(theta_i) on the left, Bayes' rule "
     "with V_i on the right. So the two readings of (22) agree for any shadowing, not only for exponentials",
 )
@@ -450,7 +446,7 @@ caption = paper.claim(
     "the caption of Figure 5, right: (22) is the probability to be seen from omega_i, given to be seen from omega_o",
     left=mean(visible(L_i * c_i, c_i) * visible(L_o * c_o, c_o)) / mean(visible(L_o * c_o, c_o)),
     printed=(1 + L_i) / (1 + L_i + L_o),
-    where=[*LAMBDAS, *COSINES],
+    where=LAMBDAS,
     reading="the caption exchanges omega_i and omega_o: that probability has 1 + Lambda_o above",
     statement=True,
 )
@@ -460,7 +456,7 @@ exchanged = paper.claim(
     "what the caption of Figure 5, right, describes",
     left=caption.left,
     corrected=(1 + L_o) / (1 + L_i + L_o),
-    where=[*LAMBDAS, *COSINES],
+    where=LAMBDAS,
 )
 
 

@@ -81,8 +81,8 @@ inscattered = paper.claim(
     left=(up * Max(0, u) * falling + down * Max(0, -u) * rising) / pi,
     printed=Integral(2 * pi * scattering(u, x) * L(x), (x, -1, 1)),
     corrected=Integral(2 * pi * scattering(x, u) * L(x), (x, -1, 1)),
-    edit="exchange omega_1 and omega_2 in sigma_s f_p and put sigma_s under the integral: the light comes along omega_2 "
-    "and is scattered into omega_1, so sigma_s(omega_2) f_p(omega_2 -> omega_1) L(omega_2)",
+    edit="exchange omega_1 and omega_2 in sigma_s f_p and put sigma_s under the integral: the light comes along "
+    "omega_2 and is scattered into omega_1, so sigma_s(omega_2) f_p(omega_2 -> omega_1) L(omega_2)",
     where=[interval(u, -1, 1), *AMOUNTS],
     instances=BEAMS,
     reading=FLAKES + ". On the left each face sends out what it receives as a Lambertian emitter. As printed, the "
@@ -240,7 +240,8 @@ paper.claim(
     left=on_the_sphere(reflected) / on_the_sphere(mirror_normal),
     corrected=4 * cos(half),
     where=[interval(half, 0, pi / 2, open=True), interval(phi, 0, 2 * pi)],
-    reading="theta_m is the angle between -omega_1 and omega_m = omega_h; so f_p = D_vis(omega_h) / (4 omega_h . omega_2)",
+    reading="theta_m is the angle between -omega_1 and omega_m = omega_h; so f_p = D_vis(omega_h) / "
+    "(4 omega_h . omega_2)",
 ).proof(lambda step: None)
 
 mirrors = paper.claim(
@@ -289,8 +290,8 @@ paper.claim(
     left=albedo * lambertian,
     printed=albedo,
     where=[interval(albedo, 0, 1)],
-    reading="sigma_s / sigma_t times the integral of f_p, f_p by (5) with a BSDF of the albedo a, f_s = a / pi: the albedo "
-    "then counts twice. Either f_s is normalised, or sigma_s = sigma_t and f_p carries the albedo, as in (27)",
+    reading="sigma_s / sigma_t times the integral of f_p, f_p by (5) with a BSDF of the albedo a, f_s = a / pi: the "
+    "albedo then counts twice. Either f_s is normalised, or sigma_s = sigma_t and f_p carries the albedo, as in (27)",
     statement=True,
 )
 
