@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 from mpmath import mp, quad
-from sympy import diff, lambdify
+from sympy import lambdify
 
 from derivations.deon2016 import beckmann, dirac_ring, ggx  # noqa: F401  (their lemmas)
 from derivations.dupuy2016 import heights, smith, volume
@@ -59,54 +61,55 @@ def test_the_wholes_carry_the_worst_of_their_lines():
 
 @pytest.mark.parametrize("family", heights.FAMILIES, ids=lambda f: f.name)
 def test_the_density_is_the_slope_of_the_logarithm(family):
-    """Nothing of the closed forms: C_1 by quadrature, its logarithm by finite differences."""
+    """No closed form on the left: C_1 by quadrature, and a difference quotient of its logarithm."""
     density = lambdify(heights.zeta, family.density(heights.zeta), "mpmath")
-    low = mp.mpf(-1) if family.low == -1 else mp.ninf
-
-    def depth(v):
-        return mp.log(quad(lambda t: density(t) + 0 * t, [low, v - 3, v] if low == mp.ninf else [low, v]))
-
+    ends = [-1] if family.low == -1 else [mp.ninf, -3]
     with mp.workdps(25):
         there = mp.mpf(-3) / 7
-        shown = mp.mpf(heights.CLOSED[family.name].subs(heights.zeta, -heights.P_AT).evalf(25)) if False else None
+        slope = mp.diff(lambda v: mp.log(quad(lambda t: density(t) + 0 * t, [*ends, v])), there)
         closed = lambdify(heights.zeta, heights.CLOSED[family.name], "mpmath")(there)
-        assert shown is None and abs(mp.diff(depth, there) - closed) < mp.mpf(10) ** -8
+        assert abs(slope - closed) < mp.mpf(10) ** -8
 
 
-def walk(lam_i, lam_o, into):
-    """How many of the first hits of paths from omega_i see omega_o, by midpoints in U: no integral, no logarithm rule."""
+def seen_from_the_path(lam_i, lam_o, into):
+    """The share of first hits of paths from omega_i that see omega_o: midpoints of the uniform number of (10)."""
     cos_i, cos_o, n = 0.6, 0.8, 20000
-    seen = 0.0
-    for k in range(n):
-        length = -float(mp.log(1 - (k + 0.5) / n)) / (into * cos_i)
-        seen += float(mp.exp(-(lam_o * cos_o) * (length * cos_i) / cos_o))
-    return seen / n
+    lengths = [-math.log(1 - (k + 0.5) / n) / (into * cos_i) for k in range(n)]
+    return sum(math.exp(-(lam_o * cos_o) * (length * cos_i) / cos_o) for length in lengths) / n
 
 
 def test_paths_that_enter_decide_between_the_lines_of_equation_22():
+    """They travel along -omega_i, with sigma(-omega_i) = (1 + Lambda_i) cos(theta_i), not Lambda_i cos(theta_i)."""
     lam_i, lam_o = 0.7, 1.9
-    line_3 = (1 + lam_i) / (1 + lam_i + lam_o)
-    lines_1_and_2 = 1 / (1 + lam_o / lam_i)
-    assert walk(lam_i, lam_o, 1 + lam_i) == pytest.approx(line_3, rel=1e-3)
-    assert walk(lam_i, lam_o, lam_i) == pytest.approx(lines_1_and_2, rel=1e-3)
-    assert abs(line_3 - lines_1_and_2) > 0.2
+    line_3, lines_1_and_2 = (1 + lam_i) / (1 + lam_i + lam_o), 1 / (1 + lam_o / lam_i)
+    assert seen_from_the_path(lam_i, lam_o, 1 + lam_i) == pytest.approx(line_3, rel=1e-3)
+    assert seen_from_the_path(lam_i, lam_o, lam_i) == pytest.approx(lines_1_and_2, rel=1e-3)
+    assert line_3 - lines_1_and_2 > 0.2
 
 
-def test_one_sided_flakes_decide_between_the_source_terms():
-    """Upward faces only, light that only falls: everything that is taken is sent up, and nothing as printed."""
-    u, up, down = volume.u, volume.up, volume.down
+def test_upward_faces_decide_between_the_source_terms():
+    """Light that only falls onto upward faces: all that is taken is sent up again; as printed, all of it is lost."""
+    n = 400
+    grid = [-1 + (2 * k + 1) / n for k in range(n)]
+    scattering = lambdify(
+        (volume.u, volume.x), volume.scattering(volume.u, volume.x).subs({volume.up: 1, volume.down: 0})
+    )
+    falling = [x for x in grid if x < 0]
+    weight = (2 * math.pi * 2 / n) ** 2
+    taken = sum(-x for x in falling) * 2 * math.pi * 2 / n
+    corrected = sum(scattering(x, u) for u in grid for x in falling) * weight
+    printed = sum(scattering(u, x) for u in grid for x in falling) * weight
+    assert corrected == pytest.approx(taken, rel=1e-4)
+    assert printed == 0
 
-    def total(form, beam):
-        inner = form.subs({up: 1, down: 0}).replace(volume.L, beam)
-        return float(quad(lambda v: lambdify(u, 2 * mp.pi * inner.subs(u, v).doit().evalf(), "mpmath")(v), [-1, 0, 1]))
 
-    def falling(v):
-        return (v < 0) * 1
-
-    del total, falling
-
-
-def test_no_derivative_is_hidden_in_the_chain_rule():
-    """15.1 differentiates the logarithm of an integral: against a difference quotient."""
-    claim = REGISTRY["dupuy2016:15.1"]
-    assert claim.printed.has(heights.P) and not claim.printed.has(diff(heights.P(heights.zeta), heights.zeta))
+def test_condition_17_alone_admits_a_tilted_facet():
+    """A single facet: its weight 1 / cos(theta_m) meets (17), and (19) misses by sin(theta_i) times its slope."""
+    tilt, theta = 0.3, 1.0
+    normal = (-math.sin(tilt), math.cos(tilt))  # the surface rises towards the viewer
+    viewer = (math.sin(theta), math.cos(theta))
+    weight = 1 / normal[1]
+    seen = weight * (normal[0] * viewer[0] + normal[1] * viewer[1])
+    assert weight * normal[1] == pytest.approx(1)
+    assert seen > 0  # so nothing is masked: Lambda = 0, and (19) would give cos(theta)
+    assert math.cos(theta) - seen == pytest.approx(math.sin(theta) * math.tan(tilt))
