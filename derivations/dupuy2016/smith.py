@@ -18,7 +18,7 @@ from xsec_sym.proof import Source, interval
 paper = Source("dupuy2016", section="3.2")
 
 u, q, x, alpha, z, U, ell = symbols("u q x alpha z U ell", real=True)
-a, b, q_0 = symbols("a b q_0", real=True)
+a, b, m, q_0 = symbols("a b m q_0", real=True)
 c_i, c_o = symbols("c_i c_o", real=True)  # cos(theta_i), cos(theta_o)
 s_i, s_o = symbols("sigma_i sigma_o", real=True)  # sigma(omega_i), sigma(omega_o)
 L_i, L_o = symbols("Lambda_i Lambda_o", real=True)
@@ -161,21 +161,16 @@ BALANCED += "mixes such pairs along each ray, and both sides are linear in D"
 inward = paper.claim(
     "19.2",
     "the projected area for light on its way in is (1 + Lambda) cos(theta_i)",
-    left=sum(w * Max(0, u - s * p) for w, p in PAIR),
-    printed=(1 + sum(w * Max(0, p - mu) / mu for w, p in PAIR)) * u,
-    where=[UPWARD, interval(a, 0, oo, open=True), WITHIN],
-    reading=BALANCED,
+    left=sum(w * Max(0, m - p) for w, p in PAIR),
+    printed=(1 + sum(w * Max(0, p - m) / m for w, p in PAIR)) * m,
+    where=[interval(m, 0, oo, open=True), interval(a, 0, oo, open=True), WITHIN],
+    reading=BALANCED + "; m = mu = cot(theta_i), and both sides are over sin(theta_i)",
 )
 
 
 @inward.proof
 def each_side_of_the_ray(step):
-    step.fact(1 - u**2, (1 - u) * (1 + u))
-    for branch in step.cases(b - mu, b, mu):
-        if branch.goal.piece.sign(b - mu) == "+":
-            branch.fact(u - s * b, -s * (b - mu))
-        elif branch.goal.piece.sign(b - mu) == "-":
-            branch.fact(u - s * b, s * (mu - b))
+    for branch in step.cases(b - m, b, m):
         branch.settle().swap().settle()
 
 

@@ -335,10 +335,10 @@ first_hit = paper.claim(
 by_area = paper.claim(
     "9.2",
     "the density of the free path by the projected area",
-    left=-diff(survival(medium(z) * sigma), ell),
+    left=-diff(survival(medium(-t) * sigma), ell),
     printed=sigma * exp(-sigma * ell),
-    where=[*INSIDE, LONG],
-    reading=PATH,
+    where=[DENSE, LONG],
+    reading=PATH + "; straight down from the interface",
 )
 paper.whole("9", "the density of the free path", ["9.1", "9.2"], left=Function("p")(ell), printed=by_area.printed)
 
@@ -359,10 +359,10 @@ by_extinction = paper.claim(
 by_projection = paper.claim(
     "11.3",
     "the attenuation by the projected area",
-    left=survival(medium(z) * sigma),
+    left=survival(medium(-t) * sigma),
     printed=exp(-sigma * ell),
-    where=[*INSIDE, LONG],
-    reading="for a segment inside the medium",
+    where=[DENSE, LONG],
+    reading="for a segment inside the medium, straight down from the interface",
 )
 paper.whole("11", "the attenuation", ["11.1", "11.2", "11.3"], left=Function("V")(ell),
             printed=by_projection.printed)  # fmt: skip
@@ -434,9 +434,9 @@ through_the_area = paper.claim(
     "10.2",
     "the free path by the projected area",
     left=ell,
-    printed=-log(1 - stopped.subs(sigma, medium(z) * sigma)) / sigma,
-    where=[*INSIDE, PATHS],
-    reading="the same with sigma_t = rho sigma, by (8)",
+    printed=-log(1 - stopped.subs(sigma, medium(-t) * sigma)) / sigma,
+    where=[DENSE, PATHS],
+    reading="the same with sigma_t = rho sigma, by (8), straight down from the interface",
 )
 back = paper.claim(
     "10.back",

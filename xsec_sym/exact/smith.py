@@ -70,7 +70,7 @@ class _Below(OnTheRing):
     low: Expr = -oo
 
     @classmethod
-    def eval(cls, zeta: Any) -> None:
+    def eval(cls, u: Any, x: Any = None) -> None:
         return None
 
     def definition(self) -> Expr:
