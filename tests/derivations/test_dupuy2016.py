@@ -9,20 +9,20 @@ from mpmath import mp, quad
 from sympy import lambdify
 
 from derivations.deon2016 import beckmann, dirac_ring, ggx  # noqa: F401  (their lemmas)
-from derivations.dupuy2016 import heights, smith, volume
+from derivations.dupuy2016 import free_path, heights, projected_area, smith, volume
 from derivations.extensions import heights as project
 from xsec_sym.proof.claim import REGISTRY
 from xsec_sym.proof.verdict import worst
 from xsec_sym.proof.verify import verify
 
-FAILING = ("balance", "asymmetric", "albedo", "any-free-path", "condition-suffices", "figure5-right")
+FAILING = ("balance", "asymmetric", "albedo", "any-free-path", "visible-from", "condition-suffices", "figure5-right")
 OTHERWISE = {
     "dupuy2016:12.gaussian.peaks": "confirmed",
     **{f"dupuy2016:{n}": "misprint" for n in ("2", "22.1", "22.2")},
     **{f"dupuy2016:claim.{slug}": "claim-fails" for slug in FAILING},
 }
 KINDS = {"definition": "definition", "out-of-scope": "out-of-scope", "statement": "claim-holds", "equation": "proved"}
-SECTIONS = (volume.paper, heights.paper, smith.paper, project.project)
+SECTIONS = (volume.paper, free_path.paper, heights.paper, projected_area.paper, smith.paper, project.project)
 CLAIMS = [c for s in SECTIONS for c in s if c.kind != "whole"]
 LINES = {8: 2, 9: 2, 10: 2, 11: 3, 15: 2, 16: 3, 18: 2, 19: 2, 20: 4, 21: 4, 22: 3}
 
