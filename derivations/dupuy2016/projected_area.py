@@ -132,14 +132,14 @@ moment = paper.claim(
 both = paper.claim(
     "19.general",
     "the projected area for light on its way in, for any slopes",
-    left=Integral(Max(0, u - s * q) * P(q), (q, -b, b)),
-    corrected=u * Integral(P(q), (q, -b, b))
-    - s * Integral(q * P(q), (q, -b, b))
-    + Integral(Max(0, s * q - u) * P(q), (q, -b, b)),
-    where=[interval(u, 0, 1), WITHIN],
+    left=Integral(Max(0, m - q) * P(q), (q, -b, b)),
+    corrected=m * Integral(P(q), (q, -b, b))
+    - Integral(q * P(q), (q, -b, b))
+    + Integral(Max(0, q - m) * P(q), (q, -b, b)),
+    where=[interval(m, 0, oo), WITHIN],
     instances=SLOPES,
-    reading=ALONG + ", up to a steepness b. With unit area (17) and mean slope 0 this is (19), the last term being "
-    "Lambda cos(theta_i)",
+    reading=ALONG + ", up to a steepness b; m = cot(theta_i), and both sides are over sin(theta_i). With unit area "
+    "(17) and mean slope 0 this is (19), the last term being Lambda cos(theta_i) over sin(theta_i)",
 )
 
 
