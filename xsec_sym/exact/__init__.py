@@ -18,9 +18,14 @@ from xsec_sym.exact.lobes import LobeGGX, ggx_anisotropic
 from xsec_sym.exact.normals import NormalsBeckmann, NormalsGGX, NormalsKagiwadaKalaba
 from xsec_sym.exact.revolution import SpheroidFacets, SpheroidRadius, SpheroidRate, SpheroidSlope
 from xsec_sym.exact.ring import AZIMUTH, RingCrossSection, RingMean, RingSpread, RingTilt, facing
+from xsec_sym.exact.smith import BelowExponential, BelowGaussian, BelowLogistic, BelowUniform, ahead, behind
 
 __all__ = [
     "AZIMUTH",
+    "BelowExponential",
+    "BelowGaussian",
+    "BelowLogistic",
+    "BelowUniform",
     "LobeGGX",
     "NormalsBeckmann",
     "NormalsGGX",
@@ -41,7 +46,9 @@ __all__ = [
     "SpreadEllipsoidal",
     "SpreadGGX",
     "SpreadSphericalGaussian",
+    "ahead",
     "beckmann",
+    "behind",
     "ellipsoidal",
     "facing",
     "ggx",
