@@ -14,6 +14,7 @@ from xsec_sym.exact.distributions import (
     ggx,
     spherical_gaussian,
 )
+from xsec_sym.exact.half_space import HIsotropic, HMoment, HTransform
 from xsec_sym.exact.lobes import LobeGGX, ggx_anisotropic
 from xsec_sym.exact.normals import NormalsBeckmann, NormalsGGX, NormalsKagiwadaKalaba
 from xsec_sym.exact.revolution import SpheroidFacets, SpheroidRadius, SpheroidRate, SpheroidSlope
@@ -21,6 +22,9 @@ from xsec_sym.exact.ring import AZIMUTH, RingCrossSection, RingMean, RingSpread,
 
 __all__ = [
     "AZIMUTH",
+    "HIsotropic",
+    "HMoment",
+    "HTransform",
     "LobeGGX",
     "NormalsBeckmann",
     "NormalsGGX",
