@@ -9,9 +9,9 @@ H is tested against both of its definitions: the Wiener-Hopf factor of K(t) = 1 
 equation H(u) [1 - a u / 2 integral of H(v) / (u + v) over v from 0 to 1] = 1 that follows from invariance.
 """
 
-from sympy import Integral, atan, cos, cot, exp, log, oo, pi, sin, symbols
+from sympy import Integral, atan, cos, exp, log, oo, pi, sin, symbols
 
-from xsec_sym.exact import HIsotropic, HTransform, RingCrossSection
+from xsec_sym.exact import HIsotropic, HTransform, RingCrossSection, wiener_hopf
 from xsec_sym.proof import Source, interval
 
 paper = Source("dupuy2016", section="4.2")
@@ -64,7 +64,7 @@ chain = paper.claim(
 phase = paper.claim(
     "27",
     "the isotropic phase function of albedo a",
-    left=a / Integral(1, (x, -1, 1), (phi, 0, 2 * pi)),
+    left=a / (Integral(1, (x, -1, 1)) * Integral(1, (phi, 0, 2 * pi))),
     printed=a / (4 * pi),
     where=[ALBEDO],
     reading="per steradian; with (27) the albedo is in f_p, while the f_p of (5) is a probability density",
@@ -129,9 +129,7 @@ def one_exponential(step):
 
 @phase.proof
 def whole_sphere(step):
-    step.nest()
-    step.antiderivative(x, next(i for i in step.left.atoms(Integral) if i.limits[0][0] == x))
-    step.antiderivative(2 * phi)
+    step.antiderivative(x, step.over(-1, 1)).antiderivative(phi, step.over(0, 2 * pi))
 
 
 # --- the projected area ------------------------------------------------------------------------------------
@@ -152,9 +150,11 @@ constant.proof(lambda step: step.linear(RingCrossSection(x, u) / pi).lemma("deon
 
 # --- all orders of scattering ------------------------------------------------------------------------------
 
-transform = HTransform(u, a)
-closed = exp(-u / pi * Integral(log(1 - t * a * cot(t)) / (u**2 * sin(t) ** 2 + cos(t) ** 2), (t, 0, pi / 2)))
+COT = "cot is written as cos / sin"
+cotangent = cos(t) / sin(t)
+closed = exp(-u / pi * Integral(log(1 - t * a * cotangent) / (u**2 * sin(t) ** 2 + cos(t) ** 2), (t, 0, pi / 2)))
 REACH = interval(u, 0, 20, open="left")
+ABSORBING = interval(a, 0, 1, open=True)
 
 
 def amplified(mu):
@@ -174,33 +174,51 @@ paper.claim(
     "right side under its integral",
 )
 
-stibbs = paper.claim(
+factor = paper.claim(
     "31.factor",
     "the closed form of H is the Wiener-Hopf factor of the transport equation",
-    left=HIsotropic(u, a),
+    left=wiener_hopf(u, a),
     printed=closed,
-    where=[interval(u, 0, oo, open=True), ALBEDO],
-    reading="the factor of 1 / K, K(t) = 1 - a arctan(t) / t, that has neither zeros nor poles for Re u > 0; at a = 1 "
-    "the logarithm is infinite at t = 0, and integrable",
+    where=[interval(u, 0, oo, open=True), ABSORBING],
+    reading="the factor of 1 / K, K(t) = 1 - a arctan(t) / t, that has neither zeros nor poles for Re u > 0; " + COT,
+)
+
+conservative = paper.claim(
+    "31.factor.conservative",
+    "the same without absorption",
+    left=wiener_hopf(u, 1),
+    printed=closed.subs(a, 1),
+    where=[interval(u, 0, oo, open=True)],
+    reading="at a = 1 the logarithm is infinite at t = 0, and integrable; " + COT,
 )
 
 paper.claim(
     "31.equation",
     "the closed form of H solves Chandrasekhar's integral equation",
-    left=1 / (1 - a * u / 2 * transform),
+    left=1 / (1 - a * u / 2 * HTransform(u, a)),
     printed=closed,
-    where=[REACH, ALBEDO],
+    where=[REACH, ABSORBING],
     reading="H(u) (1 - a u / 2 times the integral of H(v) / (u + v)) = 1 with H by the closed form, under the integral "
-    "too. For a < 1 the equation has a second solution, with a pole at u > 1; the closed form is bounded",
+    "too. For a < 1 the equation has a second solution, with a pole at u > 1; the closed form is bounded; " + COT,
+)
+
+paper.claim(
+    "31.equation.conservative",
+    "the same without absorption",
+    left=1 / (1 - u / 2 * HTransform(u, 1)),
+    printed=HIsotropic(u, 1),
+    where=[REACH],
+    reading="H by the closed form at a = 1, under the integral too",
 )
 
 paper.whole(
     "31",
     "a closed form of Chandrasekhar's H function",
-    ["31.factor", "31.equation"],
+    ["31.factor", "31.factor.conservative", "31.equation", "31.equation.conservative"],
     left=HIsotropic(u, a),
     printed=closed,
-    reading="proved to be the Wiener-Hopf factor, and confirmed to solve the integral equation",
+    reading="proved to be the Wiener-Hopf factor, and confirmed to solve the integral equation, for 0 < a <= 1 and "
+    "u > 0, also beyond 1; " + COT,
 )
 
 below = paper.claim(
@@ -218,14 +236,14 @@ def its_own_derivative(step):
     step.swap().antiderivative(y - atan(y) - y**3 / (3 * (1 + y**2)))
 
 
-@stibbs.proof
+@factor.proof
+@conservative.proof
 def tangent(step):
     """t = arctan(tau): sin and cos become algebraic."""
-    step.unfold().swap()
-    step.substitute(tau, atan(tau), 0, oo)
-    term = tau - atan(tau) - tau**3 / (3 * (1 + tau**2))
-    step.fact(tau - a * atan(tau), tau**3 / (3 * (1 + tau**2)), term, (1 - a) * atan(tau), inside=(tau, 0, oo),
-              by=below, mapping={tau: tau})  # fmt: skip
+    step.swap().substitute(tau, atan(tau), 0, oo)
+    share = a if step.left.has(a) else 1
+    parts = (tau**3 / (3 * (1 + tau**2)), below.left, (1 - share) * atan(tau))
+    step.fact(tau - share * atan(tau), *parts, inside=(tau, 0, oo), by=below, mapping={tau: tau})
 
 
 paper.out_of_scope(

@@ -4,9 +4,9 @@ With the single-scattering albedo a in (0, 1] and K(t) = 1 - a arctan(t) / t, H 
 
     H(u) = exp(-u / pi int_0^oo log K(t) / (1 + u^2 t^2) dt),   u > 0.
 
-`HTransform` and `HMoment` are integrals over H, which is itself the exponential of one. They stand for themselves, as
-a Bessel function does: balls come from `half_space_balls.py`, and decimal digits from the closed form of Stibbs and
-Weir, on nodes that the balls do not use.
+`HTransform` and `HMoment` are integrals over it, so that an integral stands in an exponential under an integral. All
+three stand for themselves, as a Bessel function does: balls come from the factor (`half_space_balls.py`, where every
+error is bounded), decimal digits from the closed form of Stibbs and Weir and mpmath.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from xsec_sym.proof.digits_compile import HANDLERS, Run, Slots, compile_mp
 from xsec_sym.proof.quadrature import NoValue, tanh_sinh
 from xsec_sym.proof.wire import register
 
-T = Symbol("t", real=True)
+T = Symbol("tau", real=True)
 
 
 def dispersion(t: Expr, a: Expr) -> Expr:
@@ -39,21 +39,22 @@ def dispersion(t: Expr, a: Expr) -> Expr:
     return 1 - a * atan(t) / t
 
 
-@register
-class HIsotropic(OnTheRing):
-    """H(u, a): without dimension, H(0+) = 1, and positive for every u > 0, also beyond 1.
+def wiener_hopf(u: Expr, a: Expr) -> Expr:
+    """The factor as Fock has it.
 
     >>> from sympy import symbols
     >>> u, a = symbols("u a", real=True)
-    >>> HIsotropic(u, a).definition()
-    exp(-u*Integral(log(-a*atan(t)/t + 1)/(t**2*u**2 + 1), (t, 0, oo))/pi)
+    >>> wiener_hopf(u, a)
+    exp(-u*Integral(log(-a*atan(tau)/tau + 1)/(tau**2*u**2 + 1), (tau, 0, oo))/pi)
     """
+    return exp(-u / pi * Integral(log(dispersion(T, a)) / (1 + u**2 * T**2), (T, 0, oo)))
+
+
+@register
+class HIsotropic(OnTheRing):
+    """H(u, a): without dimension, H(0+) = 1, and positive for every u > 0, also beyond 1."""
 
     symbol = "H"
-
-    def definition(self) -> Expr:
-        u, a = self.args
-        return exp(-u / pi * Integral(log(dispersion(T, a)) / (1 + u**2 * T**2), (T, 0, oo)))
 
 
 @register
@@ -76,12 +77,15 @@ class HMoment(OnTheRing):
         return rf"\left[\int_{{0}}^{{1}} v^{{{n}}} H\left(v, {a}\right) dv\right]{power}"
 
 
+_BALLS = {HIsotropic: half_space_balls.value, HTransform: half_space_balls.transform, HMoment: half_space_balls.moment}
+
+
 # --- balls ------------------------------------------------------------------------------------------------------
 
 
 def _balls(e: Any, build: Any) -> Closure:
     first, second = (build(p) for p in e.args)
-    value = half_space_balls.transform if isinstance(e, HTransform) else half_space_balls.moment
+    value = _BALLS[type(e)]
 
     def f(v: Any, analytic: bool) -> acb:
         x, a = first(v, analytic), second(v, analytic)
@@ -143,25 +147,26 @@ def _stibbs_weir(a: mpf, bits: int) -> _StibbsWeir:
 
 def _digits(e: Any, slots: Slots) -> Run:
     first, second = (compile_mp(p, slots) for p in e.args)
-    over = isinstance(e, HTransform)
+    head = type(e)
 
     def f(v: list[Any]) -> mpf:
         x, a = mpf(first(v)), mpf(second(v))
-        if not (0 < a <= 1 and (x > 0 if over else x >= 0)):
+        if not (0 < a <= 1 and (x >= 0 if head is HMoment else x > 0)):
             raise NoValue(f"{e} is taken outside its domain")
-
         h = _stibbs_weir(a, mp.prec)
+        if head is HIsotropic:
+            return h(x)
 
         def integrand(w: mpf) -> mpf:
-            return h(w) * (1 / (x + w) if over else w**x)
+            return h(w) * (w**x if head is HMoment else 1 / (x + w))
 
         return tanh_sinh(integrand, mpf(0), mpf(1), mp.dps - 12)
 
     return f
 
 
-for _head in (HTransform, HMoment):
+for _head in (HIsotropic, HTransform, HMoment):
     SPECIAL[_head] = _balls
     HANDLERS[_head] = _digits
 
-__all__ = ["HIsotropic", "HMoment", "HTransform", "dispersion"]
+__all__ = ["HIsotropic", "HMoment", "HTransform", "dispersion", "wiener_hopf"]

@@ -27,6 +27,7 @@ from flint import arb, arb_mat, ctx
 RATIO = 27  # the width of a panel over the step
 SHIFT = "1.178"  # a little less than 3 pi / 8, the half width of the strip in which all is bounded
 LARGEST = 9  # of |H| / max(1, |z|) in that strip
+MOST = 220  # bits, for 50 digits and a reserve: the work grows with their third power
 SMALL = arb(2) ** -6  # below this t, 1 - arctan(t) / t cancels and is summed as a series
 
 
@@ -48,19 +49,24 @@ class Mesh:
         # 2 size rho^(-2 n) / (1 - 1 / rho), the rule with n nodes is exact on it, and its weights sum to 2
         self.gauss = half * 8 * rho ** (-2 * self.count) / (1 - 1 / rho) * self.panels
         self.overshoot = (long - half).exp()  # |z| on the ellipses is at most this
-        # the trapezoidal sum over the whole line, with |sech(y + i d)| <= sech(y) / cos(d), and its two cut ends
-        strip = 2 / d.cos() * (arb("5.5") * arb.pi() + 2 * arb("1.84"))
-        whole = strip / ((2 * arb.pi() * d / h).exp() - 1)
-        low, high = (self.below + 1) * h, (self.above + 1 - RATIO) * h
-        q = (-h).exp()
-        ends = h * 2 * (-low).exp() * ((arb("5.5") + 2 * low) / (1 - q) + 2 * h * q / (1 - q) ** 2)
-        ends += 2 * arb.pi() * h * (-2 * high).exp() / (1 - q * q)
-        self.logarithm = (whole + ends) / (2 * arb.pi())
         self.offsets, self.weights = _gauss_legendre(self.count, half)
         # the cosines v = exp(-s), one row a node, one column a panel, and where they end
         self.places = [[(-(s + p * 2 * half)).exp() for p in range(self.panels)] for s in self.offsets]
         self.end = (-self.panels * 2 * half).exp()
         self.kernel = self._kernel()
+
+    def error(self, u: arb) -> arb:
+        """A ball about 0 for what the sum leaves out of log H(u)."""
+        h, d, q = self.h, arb(SHIFT), (-self.h).exp()
+        above = arb.max(arb(1), u)
+        flat = arb("5.5") + 2 * above.log()  # |log K| <= flat + 2 max(0, s - y)
+        # over the whole line, with |sech(y + i d)| <= sech(y) / cos(d) ...
+        whole = 2 / d.cos() * (flat * arb.pi() + 2 * arb("1.84")) / ((2 * arb.pi() * d / h).exp() - 1)
+        # ... and at its two ends, at the upper of which -log K <= pi u exp(s - y)
+        low, high = (self.below + 1) * h, (self.above + 1 - RATIO) * h
+        ends = h * 2 * (-low).exp() * ((flat + 2 * low) / (1 - q) + 2 * h * q / (1 - q) ** 2)
+        ends += 2 * arb.pi() * above * h * (-2 * high).exp() / (1 - q * q)
+        return arb(0, 1) * ((whole + ends) / (2 * arb.pi())).upper()
 
     def _kernel(self) -> arb_mat:
         """h / (2 pi) sech(k h - offset), one row a node, one column an index k of the window."""
@@ -111,20 +117,53 @@ def _log_dispersion(t: arb, a: arb) -> arb:
 
 
 @lru_cache(maxsize=64)
+def _found(middle: arb, radius: arb, bits: int) -> dict[int, arb]:
+    return {}
+
+
+def _logarithms(a: arb, low: int, high: int) -> list[arb]:
+    """log K(exp(k h)) for low <= k < high."""
+    m, known = mesh(ctx.prec), _found(arb(a.mid()), arb(a.rad()), ctx.prec)
+    missing = [k for k in range(low, high) if k not in known]
+    if missing:
+        step, t = m.h.exp(), (missing[0] * m.h).exp()
+        for k in range(missing[0], missing[-1] + 1):
+            if k not in known:
+                known[k] = _log_dispersion(t, a)
+            t *= step
+    return [known[k] for k in range(low, high)]
+
+
+@lru_cache(maxsize=64)
 def _values(middle: arb, radius: arb, bits: int) -> list[list[arb]]:
-    """H at every node of the mesh, by rows as in `places`."""
-    m, a = mesh(bits), arb(middle, radius)
-    step, t = m.h.exp(), (-m.below * m.h).exp()
+    """H at every node of the mesh, by rows as its `places`."""
+    m = mesh(bits)
     window = m.below + m.above + 1
-    logs = []
-    for _ in range(window + (m.panels - 1) * RATIO):
-        logs.append(_log_dispersion(t, a))
-        t *= step
+    logs = _logarithms(arb(middle, radius), -m.below, m.above + 1 + (m.panels - 1) * RATIO)
     # on panel p, y - s = k h - offset with y = (k + p RATIO) h
-    shifted = arb_mat([[logs[p * RATIO + k] for p in range(m.panels)] for k in range(window)])
-    sums = m.kernel * shifted
-    error = arb(0, 1) * m.logarithm.upper()
+    sums = m.kernel * arb_mat([[logs[p * RATIO + k] for p in range(m.panels)] for k in range(window)])
+    error = m.error(arb(1))
     return [[(error - sums[i, p]).exp() for p in range(m.panels)] for i in range(m.count)]
+
+
+def value(u: arb, a: arb) -> arb:
+    """H(u) for u > 0 and 0 <= a <= 1, from the Wiener-Hopf factor.
+
+    >>> from flint import arb
+    >>> value(arb(3), arb(0)).overlaps(arb(1))
+    True
+    """
+    if not (u > 0 and a >= 0 and a <= 1 and ctx.prec <= MOST):
+        return arb("nan")
+    m = mesh(ctx.prec)
+    s = -u.log()
+    first = int(float((s / m.h).floor().mid()))
+    step, e = m.h.exp(), ((first - m.below) * m.h - s).exp()
+    total = arb(0)
+    for log_k in _logarithms(a, first - m.below, first + m.above + 1):
+        total += log_k / (e + 1 / e)
+        e *= step
+    return (m.error(u) - m.h / arb.pi() * total).exp()
 
 
 def _weighted(a: arb) -> Iterator[tuple[arb, arb]]:
@@ -149,7 +188,7 @@ def transform(u: arb, a: arb) -> arb:
     >>> transform(arb(2), arb(0)).overlaps(arb(1.5).log())
     True
     """
-    if not (u > 0 and a >= 0 and a <= 1):
+    if not (u > 0 and a >= 0 and a <= 1 and ctx.prec <= MOST):
         return arb("nan")
     m = mesh(ctx.prec)
     # Re v > 0 on the ellipses, so that |u + v| exceeds both u and |v|
@@ -159,7 +198,7 @@ def transform(u: arb, a: arb) -> arb:
 
 def moment(n: arb, a: arb) -> arb:
     """The integral of v^n H(v) over v from 0 to 1, for n = 0, 1, 2, ... and 0 <= a <= 1."""
-    if not (n.is_integer() and n >= 0 and a >= 0 and a <= 1):
+    if not (n.is_integer() and n >= 0 and a >= 0 and a <= 1 and ctx.prec <= MOST):
         return arb("nan")
     m = mesh(ctx.prec)
     size = LARGEST * m.overshoot ** (n + 2)
