@@ -68,7 +68,7 @@ sphere = paper.claim(
     "a mirror ball scatters alike in all directions: rays nearer to the axis than b fill a cap of the sphere, whose "
     "share of the sphere is the rays' share of the beam",
     left=Integral(2 * y, (y, 0, b)),
-    corrected=(1 - (inward.T * reflected)[0] * -1) / 2,
+    corrected=(1 + inward.dot(reflected)) / 2,
     where=[interval(b, 0, 1)],
     statement=True,
     reading="the far field of one ball, all rays parallel; a cap about the light with the cosine c at its rim has the "
@@ -137,9 +137,9 @@ paper.whole(
 seen = paper.claim(
     "claim.figure-12",
     "its cross-sections go from a rough surface, dark from below, to an isotropic medium, the same from everywhere: "
-    "opposite views differ by (coth(kappa) - 1 / kappa) u",
-    left=SigmaSphericalGaussian(u, alpha) - SigmaSphericalGaussian(-u, alpha),
-    corrected=(coth(kappa) - 1 / kappa) * u,
+    "half the difference of opposite views is (coth(kappa) - 1 / kappa) u / 2",
+    left=(SigmaSphericalGaussian(u, alpha) - SigmaSphericalGaussian(-u, alpha)) / 2,
+    corrected=(coth(kappa) - 1 / kappa) * u / 2,
     where=[interval(u, -1, 1), ROUGH],
     statement=True,
     reduces=("xsec:sg-positive",),
@@ -148,10 +148,7 @@ seen = paper.claim(
 )
 
 
-@seen.proof
-def odd_part(step):
-    step.rewrite(step.left, 2 * ((SigmaSphericalGaussian(u, alpha) - SigmaSphericalGaussian(-u, alpha)) / 2))
-
+seen.proof(lambda step: step.lemma("xsec:sg-odd", {u: u, alpha: alpha}))
 
 paper.out_of_scope(
     "claim.semi-porous",

@@ -12,7 +12,7 @@ from xsec_sym.proof import Source, interval
 
 project = Source("xsec", section="flakes")
 
-beta, chi, lam, mu, y = symbols("beta chi lambda mu y", real=True)
+beta, chi, mu, p, v, w, y = symbols("beta chi mu p v w y", real=True)
 D, SIGMA = 1 / (4 * pi), Rational(1, 4)
 PLAIN = "D per steradian and without direction, flakes that absorb nothing"
 
@@ -46,13 +46,43 @@ share.proof(lambda step: step.antiderivative(sin(y) ** 2))
 
 # --- diffuse flakes -------------------------------------------------------------------------------------------
 
+bright = project.claim(
+    "flakes.clamp.bright",
+    "a sine over the first half of the turn is its own clamp",
+    left=Max(0, sin(p)),
+    corrected=sin(p),
+    where=[interval(p, 0, pi)],
+)
+dark = project.claim(
+    "flakes.clamp.dark",
+    "its negative is clamped to 0",
+    left=Max(0, -sin(p)),
+    corrected=0,
+    where=[interval(p, 0, pi)],
+)
+
+
+difference = project.claim(
+    "flakes.sine-of-a-difference",
+    "the sine of a difference",
+    left=sin(chi - v),
+    corrected=sin(chi) * cos(v) - cos(chi) * sin(v),
+    where=[interval(v, -7, 7), interval(chi, -7, 7)],
+)
+
+
+def both(angle):
+    return Max(0, sin(angle)) * Max(0, sin(angle - chi))
+
+
 lune = project.claim(
     "flakes.lune",
     "the two clamped cosines, over the circle through both directions",
-    left=Integral(Max(0, cos(lam)) * Max(0, cos(lam - chi)), (lam, -pi, pi)),
+    left=Integral(both(p), (p, 0, chi)) + Integral(both(v), (v, chi, pi)) + Integral(both(w), (w, pi, 2 * pi)),
     corrected=(sin(chi) + (pi - chi) * cos(chi)) / 2,
     where=[interval(chi, 0, pi)],
-    reading="chi is the angle between the direction to the light and omega_2",
+    reading="chi is the angle between the direction to the light and omega_2; the angle of the normal is counted from "
+    "where it begins to face the light, on three arcs that make the circle",
 )
 
 clamped = Integral(1 - y**2, (y, -1, 1)) * lune.left
@@ -63,8 +93,8 @@ diffuse_angle = project.claim(
     left=clamped * D / (pi * SIGMA),
     corrected=2 * (sin(chi) + (pi - chi) * cos(chi)) / (3 * pi**2),
     where=[interval(chi, 0, pi)],
-    reading=PLAIN + ". A normal at the height y over the plane of both directions and at the angle lambda in it has "
-    "the cosines sqrt(1 - y^2) cos(lambda) and sqrt(1 - y^2) cos(lambda - chi), and the sphere the area dy d lambda",
+    reading=PLAIN + ". A normal at the height y over the plane of both directions and at the angle p in it has the "
+    "cosines sqrt(1 - y^2) sin(p) and sqrt(1 - y^2) sin(p - chi), and the sphere the area dy dp",
 )
 
 diffuse = project.claim(
@@ -92,10 +122,28 @@ moment = project.claim(
 )
 
 
+@bright.proof
+@dark.proof
+def first_half_of_a_turn(step):
+    for branch in step.cases(p):
+        if branch.is_empty:
+            branch.vacuous()
+        elif branch.left.has(p):
+            for inner in branch.cases(pi - p, p, pi, -1):
+                inner.vacuous() if inner.is_empty else inner.settle()
+
+
+@difference.proof
+def oscillation(step):
+    step.ode(v, [1, 0, 1], at=0)
+
+
 @lune.proof
 def lit_from_both(step):
-    step.split(-pi / 2, chi - pi / 2, pi / 2)
-    step.antiderivative((lam * cos(chi) + sin(lam) * cos(lam - chi)) / 2)
+    step.lemma(dark, {p: chi - p}).lemma(dark, {p: w - pi}).lemma(bright, {p: v}).lemma(bright, {p: v - chi})
+    step.antiderivative(0, step.over(0, chi)).antiderivative(0, step.over(pi, 2 * pi))
+    step.lemma(difference, {v: v, chi: chi})
+    step.antiderivative(cos(chi) * (v - sin(v) * cos(v)) / 2 - sin(chi) * sin(v) ** 2 / 2)
 
 
 @diffuse_angle.proof
@@ -112,8 +160,6 @@ def by_the_cosine(step):
 def by_parts(step):
     root = sqrt(1 - mu**2)
     area = (mu * root - acos(mu)) / 2  # of the root
-    weighted = mu**2 * acos(mu) / 2 + area * -1 / 2 - acos(mu) / 2 if False else None
-    del weighted
     step.antiderivative(4 / (3 * pi) * (area - (mu**2 * acos(mu) / 2 - (mu * root + acos(mu)) / 4)))
 
 

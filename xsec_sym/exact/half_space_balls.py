@@ -19,15 +19,17 @@ Along the convolution this gives |H(z)| <= 9 max(1, |z|) for |arg z| <= 3 pi / 8
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from functools import lru_cache
+from collections.abc import Callable, Iterable, Iterator
+from functools import lru_cache, wraps
 
 from flint import arb, arb_mat, ctx
+
+from xsec_sym.proof.ball_compile import precision
 
 RATIO = 27  # the width of a panel over the step
 SHIFT = "1.178"  # a little less than 3 pi / 8, the half width of the strip in which all is bounded
 LARGEST = 9  # of |H| / max(1, |z|) in that strip
-MOST = 220  # bits, for 50 digits and a reserve: the work grows with their third power
+LEVELS = (96, 150, 220)  # bits that are worked with, so that the meshes are few; their cost grows with the third power
 SMALL = arb(2) ** -6  # below this t, 1 - arctan(t) / t cancels and is summed as a series
 
 
@@ -146,6 +148,21 @@ def _values(middle: arb, radius: arb, bits: int) -> list[list[arb]]:
     return [[(error - sums[i, p]).exp() for p in range(m.panels)] for i in range(m.count)]
 
 
+def _at_a_level(f: Callable[[arb, arb], arb]) -> Callable[[arb, arb], arb]:
+    """f at the next level of precision; beyond the last there is no enclosure."""
+
+    @wraps(f)
+    def worked(x: arb, a: arb) -> arb:
+        bits = next((level for level in LEVELS if level >= ctx.prec), None)
+        if bits is None:
+            return arb("nan")
+        with precision(bits):
+            return f(x, a)
+
+    return worked
+
+
+@_at_a_level
 def value(u: arb, a: arb) -> arb:
     """H(u) for u > 0 and 0 <= a <= 1, from the Wiener-Hopf factor.
 
@@ -153,7 +170,7 @@ def value(u: arb, a: arb) -> arb:
     >>> value(arb(3), arb(0)).overlaps(arb(1))
     True
     """
-    if not (u > 0 and a >= 0 and a <= 1 and ctx.prec <= MOST):
+    if not (u > 0 and a >= 0 and a <= 1):
         return arb("nan")
     m = mesh(ctx.prec)
     s = -u.log()
@@ -181,6 +198,7 @@ def _summed(terms: Iterable[arb], size: arb, rest: arb) -> arb:
     return sum(terms, arb(0)) + arb(0, 1) * error
 
 
+@_at_a_level
 def transform(u: arb, a: arb) -> arb:
     """The integral of H(v) / (u + v) over v from 0 to 1, for u > 0 and 0 <= a <= 1.
 
@@ -188,7 +206,7 @@ def transform(u: arb, a: arb) -> arb:
     >>> transform(arb(2), arb(0)).overlaps(arb(1.5).log())
     True
     """
-    if not (u > 0 and a >= 0 and a <= 1 and ctx.prec <= MOST):
+    if not (u > 0 and a >= 0 and a <= 1):
         return arb("nan")
     m = mesh(ctx.prec)
     # Re v > 0 on the ellipses, so that |u + v| exceeds both u and |v|
@@ -196,9 +214,10 @@ def transform(u: arb, a: arb) -> arb:
     return _summed((f / (u + v) for v, f in _weighted(a)), LARGEST * m.overshoot * most, LARGEST * m.end / u)
 
 
+@_at_a_level
 def moment(n: arb, a: arb) -> arb:
     """The integral of v^n H(v) over v from 0 to 1, for n = 0, 1, 2, ... and 0 <= a <= 1."""
-    if not (n.is_integer() and n >= 0 and a >= 0 and a <= 1 and ctx.prec <= MOST):
+    if not (n.is_integer() and n >= 0 and a >= 0 and a <= 1):
         return arb("nan")
     m = mesh(ctx.prec)
     size = LARGEST * m.overshoot ** (n + 2)
