@@ -180,8 +180,8 @@ factor = paper.claim(
     left=wiener_hopf(u, a).args[0],
     printed=exponent,
     where=[interval(u, 0, oo, open=True), ALBEDO],
-    reading="the factor of 1 / K, K(t) = 1 - a arctan(t) / t, that has neither zeros nor poles for Re u > 0; at a = 1 the "
-    "logarithm is infinite at t = 0, and integrable; " + COT,
+    reading="the factor of 1 / K, K(t) = 1 - a arctan(t) / t, that has neither zeros nor poles for Re u > 0; at a = 1 "
+    "the logarithm is infinite at t = 0, and integrable; " + COT,
 )
 
 paper.claim(
@@ -200,8 +200,8 @@ paper.claim(
     left=amplified(u),
     printed=HIsotropic(u, a),
     where=[REACH, interval(a, Rational(99, 100), 1)],
-    reading="H is enclosed by the factor of 31.factor, under the integral too, since the logarithm that diverges at a = 1 "
-    "leaves the closed form no enclosure; its digits on the second route are those of the closed form",
+    reading="H is enclosed by the factor of 31.factor, under the integral too, since the logarithm that diverges at "
+    "a = 1 leaves the closed form no enclosure; its digits on the second route are those of the closed form",
 )
 
 paper.whole(
@@ -246,7 +246,7 @@ paper.out_of_scope(
     "claim.other-methods",
     "(30) also follows from singular eigenfunctions or from the Wiener-Hopf method; both have been used for "
     "anisotropic media, where the discrete eigenvalues are no longer paired and the diffusion is advected",
-    because="reports of other works, about media that this text does not define; the Wiener-Hopf factor itself is 31.factor",
+    because="reports of other works, about media that this text does not define; the factor itself is 31.factor",
 )
 paper.out_of_scope(
     "claim.4.2-open-questions",

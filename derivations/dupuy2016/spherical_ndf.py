@@ -1,4 +1,4 @@
-"""Section 4.3 and the captions of figures 9 to 12: normals on the whole sphere, from a flat mirror to an isotropic medium.
+"""Section 4.3 and figures 9 to 12: normals on the whole sphere, from a flat mirror to an isotropic medium.
 
 The section asks for a family of distributions and names none. The spherical Gaussian of deon2016, with alpha = m, is
 one that meets all three wishes; they are tested on it.
@@ -16,7 +16,9 @@ kappa = 2 / alpha**2
 mass = 1 - exp(-2 * kappa)
 across = 1 / sqrt(1 + alpha**2 * v**2)
 ROUGH = interval(alpha, 0, oo, open=True)
-FAMILY = "the family is the spherical Gaussian of deon2016 (28), alpha = m, per steradian with unit mass; kappa = 2 / m^2"
+FAMILY = (
+    "the family is the spherical Gaussian of deon2016 (28), alpha = m, per steradian with unit mass; kappa = 2 / m^2"
+)
 
 
 # --- the height of a height field ----------------------------------------------------------------------------
@@ -97,7 +99,7 @@ flat = paper.claim(
     corrected=alpha**2 / 2 - (coth(kappa) - 1),
     where=[interval(alpha, 0, 10, open="left")],
     statement=True,
-    reading=FAMILY + ". coth exceeds 1, so the mean is at most m^2 / 2 and goes to 0 with m: all mass closes on the pole",
+    reading=FAMILY + ". coth exceeds 1, so this is at most m^2 / 2 and goes to 0 with m: all mass closes on the pole",
 )
 flat.proof(lambda step: step.lemma("deon2016:claim.flat-limit.spherical-gaussian", {alpha: alpha}))
 

@@ -67,7 +67,7 @@ difference = project.claim(
     "the sine of a difference",
     left=sin(chi - v),
     corrected=sin(chi) * cos(v) - cos(chi) * sin(v),
-    where=[interval(v, -7, 7), interval(chi, -7, 7)],
+    where=[interval(v, -2 * pi, 2 * pi), interval(chi, -2 * pi, 2 * pi)],
 )
 
 

@@ -22,14 +22,14 @@ project.claim(
     left=HMoment(0, a),
     corrected=2 / (1 + sqrt(1 - a)),
     where=[ALBEDO],
-    reading=H + "; it is 2 (1 - sqrt(1 - a)) / a. The integral equation times H, integrated, only says that it is 1 + a / 4 "
-    "times its square: the other root, 2 (1 + sqrt(1 - a)) / a, belongs to the solution with a pole",
+    reading=H + "; it is 2 (1 - sqrt(1 - a)) / a. The integral equation times H, integrated, only says that it is "
+    "1 + a / 4 times its square: the other root, 2 (1 + sqrt(1 - a)) / a, belongs to the solution with a pole",
 )
 
 project.claim(
     "iso.second",
     "what ties the first moment to the second",
-    left=(1 - a) * HMoment(2, a) + a / 4 * HMoment(1, a) ** 2,
+    left=sqrt(1 - a) * HMoment(2, a) + a / 4 * HMoment(1, a) ** 2,
     corrected=Rational(1, 3),
     where=[ALBEDO],
     reading=H,
@@ -41,8 +41,8 @@ project.claim(
     left=a / 2 * HIsotropic(u, a) * (HMoment(0, a) - u * HTransform(u, a)),
     corrected=1 - sqrt(1 - a) * HIsotropic(u, a),
     where=[interval(u, 0, 1, open="left"), ALBEDO],
-    reading=H + "; the directional albedo, the integral of (30) with the cosine over all directions out. It is 1 without "
-    "absorption",
+    reading=H + "; the directional albedo, the integral of (30) with the cosine over all directions out. It is 1 "
+    "without absorption",
 )
 
 project.claim(

@@ -107,7 +107,7 @@ class _StibbsWeir:
     """
 
     def __init__(self, a: mpf) -> None:
-        self.bits = bits = mp.prec + 30
+        self.bits = bits = int((mp.dps - 8) * mpf("3.33"))  # what `value` works with, less most of its reserve
         nats = bits * mp.log(2)
         self.h = mpf("0.9") * mp.pi**2 / nats
         self.low = -int(nats / self.h)
@@ -160,7 +160,7 @@ def _digits(e: Any, slots: Slots) -> Run:
         def integrand(w: mpf) -> mpf:
             return h(w) * (w**x if head is HMoment else 1 / (x + w))
 
-        return tanh_sinh(integrand, mpf(0), mpf(1), mp.dps - 12)
+        return tanh_sinh(integrand, mpf(0), mpf(1), mp.dps - 14)
 
     return f
 

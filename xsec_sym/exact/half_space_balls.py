@@ -29,7 +29,7 @@ from xsec_sym.proof.ball_compile import precision
 RATIO = 27  # the width of a panel over the step
 SHIFT = "1.178"  # a little less than 3 pi / 8, the half width of the strip in which all is bounded
 LARGEST = 9  # of |H| / max(1, |z|) in that strip
-LEVELS = (96, 150, 220)  # bits that are worked with, so that the meshes are few; their cost grows with the third power
+LEVELS = (76, 134, 200)  # bits that are worked with, so that the meshes are few; their cost grows with the third power
 SMALL = arb(2) ** -6  # below this t, 1 - arctan(t) / t cancels and is summed as a series
 
 
@@ -37,7 +37,7 @@ class Mesh:
     """Nodes, weights and the errors that they leave, for results of about 2^-bits."""
 
     def __init__(self, bits: int) -> None:
-        nats = (bits + 12) * arb(2).log()
+        nats = (bits - 4) * arb(2).log()
         d = arb(SHIFT)
         self.h = h = _rounded(2 * arb.pi() * d / (nats + 6))
         half = RATIO * h / 2  # of a panel
@@ -47,8 +47,8 @@ class Mesh:
         self.count = int(float((nats + 6) / (2 * rho.log()))) + 1
         self.below = int(float((nats + 8) / h)) + 1
         self.above = int(float((nats + 8) / (2 * h))) + 1 + RATIO
-        # |f| <= size on an ellipse with the sum rho of its half-axes: a Chebyshev series cut off at 2 n terms is wrong by
-        # 2 size rho^(-2 n) / (1 - 1 / rho), the rule with n nodes is exact on it, and its weights sum to 2
+        # |f| <= size on an ellipse with the sum rho of its half-axes: a Chebyshev series cut off at 2 n terms is
+        # wrong by 2 size rho^(-2 n) / (1 - 1 / rho), the rule with n nodes is exact on it, and its weights sum to 2
         self.gauss = half * 8 * rho ** (-2 * self.count) / (1 - 1 / rho) * self.panels
         self.overshoot = (long - half).exp()  # |z| on the ellipses is at most this
         self.offsets, self.weights = _gauss_legendre(self.count, half)
@@ -81,7 +81,6 @@ class Mesh:
                 e *= step
             rows.append(row)
         return arb_mat(rows)
-
 
 
 def _rounded(x: arb) -> arb:
