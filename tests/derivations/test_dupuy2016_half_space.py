@@ -113,7 +113,7 @@ def test_coarse_balls_hold_the_fine_ones():
                 with precision(bits):
                     found.append(f(x, a))
             assert found[0].overlaps(found[1])
-            assert found[1].rad() < found[0].rad() < 1e-15
+            assert found[1].rad() < found[0].rad() < 1e-15 * found[0]
 
 
 def test_outside_the_domain_there_is_no_ball():
