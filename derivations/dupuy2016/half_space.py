@@ -11,13 +11,14 @@ equation H(u) [1 - a u / 2 integral of H(v) / (u + v) over v from 0 to 1] = 1 th
 
 from sympy import Integral, Rational, atan, cos, exp, log, oo, pi, sin, symbols
 
+from derivations.extensions.isotropic_half_space import below, tau
 from xsec_sym.exact import HIsotropic, HTransform, RingCrossSection, wiener_hopf
 from xsec_sym.proof import Source, interval
 
 paper = Source("dupuy2016", section="4.2")
 
 mu_i, mu_o = symbols("mu_i mu_o", real=True)  # cos(theta_i) and cos(theta_o)
-a, f_p, sigma, z, u, t, x, y, tau, phi = symbols("a f_p sigma z u t x y tau phi", real=True)
+a, beta, c, f_p, sigma, z, u, t, x, y, phi = symbols("a beta c f_p sigma z u t x y phi", real=True)
 
 COSINES = [interval(mu_i, 0, 1, open="left"), interval(mu_o, 0, 1, open="left")]
 AREA = interval(sigma, 0, oo, open=True)
@@ -132,6 +133,24 @@ def whole_sphere(step):
     step.antiderivative(x, step.over(-1, 1)).antiderivative(phi, step.over(0, 2 * pi))
 
 
+# --- mirrors ----------------------------------------------------------------------------------------------
+
+seen = Integral(2 * pi * sin(y) * cos(y) * c, (y, 0, pi / 2))  # the projected area of D = c
+
+mirror = paper.claim(
+    "claim.isotropic-mirror",
+    "mirror flakes with a constant D scatter alike in all directions",
+    left=c * cos(beta) / seen / (4 * cos(beta)),
+    corrected=1 / (4 * pi),
+    where=[interval(beta, 0, pi / 2, open=True), interval(c, 0, oo, open=True)],
+    statement=True,
+    reading="(5) with D = c of any size: a flake inclined by beta to the light is met with the density (6), and "
+    "the solid angle of the reflected light is 4 cos(beta) times that of the normals (kenha2018:4.reflected); see also "
+    "xsec:flakes.mirror.share",
+)
+mirror.proof(lambda step: step.antiderivative(pi * c * sin(y) ** 2))
+
+
 # --- the projected area ------------------------------------------------------------------------------------
 
 constant = paper.claim(
@@ -213,20 +232,6 @@ paper.whole(
     reading="proved to be the Wiener-Hopf factor, and confirmed to solve the integral equation, for 0 < a <= 1 and "
     "u > 0, also beyond 1; cot is written as cos / sin",
 )
-
-below = paper.claim(
-    "31.below",
-    "the arctangent stays below its argument",
-    left=tau - atan(tau) - tau**3 / (3 * (1 + tau**2)),
-    corrected=Integral(2 * y**4 / (3 * (1 + y**2) ** 2), (y, 0, tau)),
-    where=[interval(tau, 0, oo, open=True)],
-    reading="a lemma of the project: by it 1 - a arctan(t) / t is positive for 0 < a <= 1",
-)
-
-
-@below.proof
-def its_own_derivative(step):
-    step.swap().antiderivative(y - atan(y) - y**3 / (3 * (1 + y**2)))
 
 
 @factor.proof

@@ -4,17 +4,32 @@ With alpha_n the moments of H, the integral of v H(v) / (u + v) is alpha_0 - u t
 v / (u + v) = 1 - u / (u + v). So dupuy2016 (30), weighed with the cosine, gives the albedo below.
 """
 
-from sympy import Rational, sqrt, symbols
+from sympy import Integral, Rational, atan, oo, sqrt, symbols
 
 from xsec_sym.exact import HIsotropic, HMoment, HTransform
 from xsec_sym.proof import Source, interval
 
 project = Source("xsec", section="isotropic half-space")
 
-a, u = symbols("a u", real=True)
+a, tau, u, y = symbols("a tau u y", real=True)
 ALBEDO = interval(a, 0, 1, open="left")
 REACH = interval(u, 0, 20, open="left")
 H = "H as in dupuy2016 (31), a the single-scattering albedo"
+
+below = project.claim(
+    "iso.arctangent",
+    "how far the arctangent stays below its argument",
+    left=tau - atan(tau) - tau**3 / (3 * (1 + tau**2)),
+    corrected=Integral(2 * y**4 / (3 * (1 + y**2) ** 2), (y, 0, tau)),
+    where=[interval(tau, 0, oo, open=True)],
+    reading="so that K(t) = 1 - a arctan(t) / t is positive for 0 < a <= 1 and t > 0, and has a logarithm",
+)
+
+
+@below.proof
+def its_own_derivative(step):
+    step.swap().antiderivative(y - atan(y) - y**3 / (3 * (1 + y**2)))
+
 
 project.claim(
     "iso.mean",
