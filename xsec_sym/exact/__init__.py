@@ -14,6 +14,7 @@ from xsec_sym.exact.distributions import (
     ggx,
     spherical_gaussian,
 )
+from xsec_sym.exact.half_space import HIsotropic, HMoment, HTransform, wiener_hopf
 from xsec_sym.exact.lobes import LobeGGX, ggx_anisotropic
 from xsec_sym.exact.normals import NormalsBeckmann, NormalsGGX, NormalsKagiwadaKalaba
 from xsec_sym.exact.revolution import SpheroidFacets, SpheroidRadius, SpheroidRate, SpheroidSlope
@@ -26,6 +27,9 @@ __all__ = [
     "BelowGaussian",
     "BelowLogistic",
     "BelowUniform",
+    "HIsotropic",
+    "HMoment",
+    "HTransform",
     "LobeGGX",
     "NormalsBeckmann",
     "NormalsGGX",
@@ -54,4 +58,5 @@ __all__ = [
     "ggx",
     "ggx_anisotropic",
     "spherical_gaussian",
+    "wiener_hopf",
 ]
