@@ -4,6 +4,15 @@ from xsec_sym.kernels.beckmann import lambda_beckmann, ndf_beckmann, sigma_beckm
 from xsec_sym.kernels.dirac_ring import sigma_dirac_ring
 from xsec_sym.kernels.ellipsoidal import ndf_ellipsoidal, sigma_ellipsoidal
 from xsec_sym.kernels.ggx import lambda_ggx, ndf_ggx, sigma_ggx
+from xsec_sym.kernels.half_space import HalfSpace
+from xsec_sym.kernels.lambert_sphere import (
+    albedo_lambert_sphere,
+    albedo_lambert_sphere_inverse,
+    brdf_lambert_sphere,
+    lambert_sphere_coefficients,
+    phase_lambert_sphere,
+    sample_lambert_sphere,
+)
 from xsec_sym.kernels.power import sigma_power
 from xsec_sym.kernels.ring_lemma import CrossSection, cross_section
 from xsec_sym.kernels.spherical_gaussian import ndf_spherical_gaussian, sigma_spherical_gaussian
@@ -11,13 +20,20 @@ from xsec_sym.kernels.table1 import sigma_inv1m, sigma_inv1m2, sigma_inv1p, sigm
 
 __all__ = [
     "CrossSection",
+    "HalfSpace",
+    "albedo_lambert_sphere",
+    "albedo_lambert_sphere_inverse",
+    "brdf_lambert_sphere",
     "cross_section",
     "lambda_beckmann",
     "lambda_ggx",
+    "lambert_sphere_coefficients",
     "ndf_beckmann",
     "ndf_ellipsoidal",
     "ndf_ggx",
     "ndf_spherical_gaussian",
+    "phase_lambert_sphere",
+    "sample_lambert_sphere",
     "sigma_beckmann",
     "sigma_dirac_ring",
     "sigma_ellipsoidal",
