@@ -12,9 +12,12 @@ from xsec_sym.kernels.half_space import HalfSpace
 
 # One half-space is solved for each distinct albedo, in a fraction of a second, and this many are kept.
 MOST_ALBEDOS = 64
-# The cuts of brdf_lambert_sphere. High orders matter for light that grazes the surface forward, in the low modes.
+# The cuts of brdf_lambert_sphere: the highest order for each mode. Where both directions graze the surface, forward,
+# nearly all light has been scattered twice, by p's kinks, and more orders matter.
 MODES, CORE = 32, 32
-HIGHEST = {0: 400, 1: 200, 2: 320} | dict.fromkeys(range(4, 32, 2), 96)
+HIGHEST = dict.fromkeys(range(3), 128) | dict.fromkeys(range(4, 32, 2), 64)
+HIGHEST_GRAZING = {0: 400, 1: 200, 2: 320} | dict.fromkeys(range(4, 32, 2), 96)
+GRAZING = 0.05
 
 # On this side of 1 or of -1 the integrals of acos are summed as series about there.
 TAIL = 0.7
@@ -169,10 +172,11 @@ def sample_lambert_sphere(xi: np.typing.ArrayLike) -> np.ndarray | np.floating:
     return elementwise(_sample, xi=xi)
 
 
-@functools.lru_cache(maxsize=MOST_ALBEDOS)
-def _half_space(c: float) -> HalfSpace:
-    coefficients = lambert_sphere_coefficients(max(HIGHEST.values()))
-    return HalfSpace(coefficients, c, modes=MODES, core=CORE, nodes=60, highest=lambda mode: HIGHEST.get(mode, CORE))
+@functools.lru_cache(maxsize=2 * MOST_ALBEDOS)
+def _half_space(c: float, grazing: bool) -> HalfSpace:
+    highest = HIGHEST_GRAZING if grazing else HIGHEST
+    coefficients = lambert_sphere_coefficients(max(highest.values()))
+    return HalfSpace(coefficients, c, modes=MODES, core=CORE, nodes=60, highest=lambda mode: highest.get(mode, CORE))
 
 
 def _brdf(mu_i: np.ndarray, mu_o: np.ndarray, phi: np.ndarray, c: np.ndarray) -> np.ndarray:
@@ -187,8 +191,10 @@ def _brdf(mu_i: np.ndarray, mu_o: np.ndarray, phi: np.ndarray, c: np.ndarray) ->
     t = total * total / (1.0 + mu_i * mu_o + sines) + 2.0 * sines * np.cos(phi / 2.0) ** 2
     result = c * _phase_at(np.minimum(t, 2.0)) / total
     for albedo in np.unique(c):
-        here = c == albedo
-        result[here] += _half_space(float(albedo)).multiple(mu_i[here], mu_o[here], phi[here])
+        for grazing in (False, True):
+            here = (c == albedo) & ((total < GRAZING) == grazing)
+            if here.any():
+                result[here] += _half_space(float(albedo), grazing).multiple(mu_i[here], mu_o[here], phi[here])
     value[some] = result
     return value
 
