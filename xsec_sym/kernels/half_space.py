@@ -26,7 +26,9 @@ import numpy as np
 # R is smooth in all but mu -> 0; a power of a Gauss-Legendre variable crowds the nodes there. The first step loses
 # digits by the smallest mu, and gets few nodes near 0; the second needs cosines that no weight is left to notice.
 FIRST_POWER, SECOND_POWER = 2, 6
-PICARD_STEPS, TAIL_ROUNDS = 40, 4
+PICARD_STEPS = 40
+# Orders that keep this part of the light, at most, are iterated where the others are solved for.
+WEAK, WEAK_ROUNDS = 1e-4, 5
 # The uniform state is split off where it stands well apart from the others.
 SPLIT_ALBEDO = 0.9
 CHUNK = 1024
@@ -171,6 +173,8 @@ class Mode:
         self.signs = np.where((self.orders + mode) % 2 == 0, 1.0, -1.0)
         # c/4 A_l (-1)^(l + mode): the weight of phi_l phi_l in R (mu + mu')
         self.weights = albedo / 4.0 * coefficients[self.orders] * self.signs
+        strong = np.abs(self.weights) > WEAK / 4.0 * (2 * self.orders + 1)
+        self.strong = int(np.flatnonzero(strong)[-1]) + 1 if strong.any() else 1
         self._solve(coefficients, nodes)
         self._refine(nodes)
 
@@ -214,9 +218,10 @@ class Mode:
     def _excess(self, mu: np.ndarray, legendre: np.ndarray) -> np.ndarray:
         """phi_l - P_l = +-2 mu times the integral of R(mu, mu') P_l(mu'), R by phi_l itself at mu and at the nodes.
 
-        Solved exactly for the core, which a round leaves with nothing to do where there are no other orders.
+        Solved for the strong orders, which leaves a second round nothing to do where there are no weak ones.
         """
-        n, k = legendre.shape[0], self.core
+        n = legendre.shape[0]
+        k = min(n, self.strong)
         scattered = (2.0 * self.quadrature * self.legendre * self.signs[:n, None]).T
         phi = self.weights[:n, None] * self.phi
         pairs = (scattered.T[:k, None] * phi[None, :k]).reshape(k * k, -1).T
@@ -226,7 +231,7 @@ class Mode:
             kernel = mu[part, None] / (mu[part, None] + self.mu)
             rest = np.eye(k) - (kernel @ pairs).reshape(-1, k, k)
             value = np.zeros((kernel.shape[0], n))
-            for _ in range(1 if n == k else TAIL_ROUNDS):
+            for _ in range(1 if n == k else WEAK_ROUNDS):
                 image = (((legendre[:, part].T + value) @ phi) * kernel) @ scattered
                 image[:, :k] = value[:, :k] + np.linalg.solve(rest, (image - value)[:, :k, None])[:, :, 0]
                 value = image
