@@ -215,8 +215,7 @@ def brdf_lambert_sphere(
     solved at its first use (half a second) and kept until 64 others have been.
 
     The quantity that `deon2021:18` fits: `deon2021:17` with the full phase function, and all further orders by
-    `HalfSpace`. Largest relative error found: 5e-11 forward, where
-    both cosines are below 0.3, and 5e-12 elsewhere.
+    `HalfSpace`. Largest relative error found: 5e-11 forward where both cosines are below 0.3, and 5e-12 elsewhere.
 
     >>> brdf_lambert_sphere(0.5, [0.5, 1.0], 0.0, 1.0).round(9).tolist()
     [0.414348324, 0.305954912]
@@ -251,7 +250,7 @@ def albedo_lambert_sphere(c: np.typing.ArrayLike) -> np.ndarray | np.floating:
     """The Bond (spherical) albedo of a half-space of Lambertian spheres of diffuse albedo c: the diffuse colour k_d.
 
     The part of the power of light arriving evenly from all directions that returns; increasing from 0 to 1, with an
-    infinite slope at c = 1, where 1 - k_d = 2.309... sqrt(1 - c).
+    infinite slope at c = 1, where 1 - k_d approaches 1.92154 sqrt(1 - c).
 
     c: in [0, 1]; anything else, NaN included, gives NaN. float32 for float32, float64 otherwise. TypeError for
     arguments that are no real numbers.
