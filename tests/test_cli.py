@@ -130,7 +130,7 @@ def test_json(mine, engine, tmp_path):
     ("arguments", "words"),
     [
         (["verify", "deon2061:8"], ["no claim deon2061:8", "did you mean"]),
-        (["verify", "--source", "deon2061"], ["no source deon2061", "did you mean deon2016"]),
+        (["verify", "--source", "kenha2081"], ["no source kenha2081", "did you mean kenha2018"]),
         (["verify", "--digits", "ten"], ["--digits"]),
         (["verify", "--digits", "0"], ["--digits"]),
         (["verify", "--jobs", "0"], ["--jobs"]),

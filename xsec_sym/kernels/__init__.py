@@ -4,7 +4,16 @@ from xsec_sym.kernels.beckmann import lambda_beckmann, ndf_beckmann, sigma_beckm
 from xsec_sym.kernels.dirac_ring import sigma_dirac_ring
 from xsec_sym.kernels.ellipsoidal import ndf_ellipsoidal, sigma_ellipsoidal
 from xsec_sym.kernels.ggx import lambda_ggx, ndf_ggx, sigma_ggx
+from xsec_sym.kernels.half_space import HalfSpace
 from xsec_sym.kernels.isotropic import brdf_isotropic, h_isotropic
+from xsec_sym.kernels.lambert_sphere import (
+    albedo_lambert_sphere,
+    albedo_lambert_sphere_inverse,
+    brdf_lambert_sphere,
+    lambert_sphere_coefficients,
+    phase_lambert_sphere,
+    sample_lambert_sphere,
+)
 from xsec_sym.kernels.lobes import sel, ssl
 from xsec_sym.kernels.power import sigma_power
 from xsec_sym.kernels.ring_lemma import CrossSection, cross_section
@@ -20,15 +29,22 @@ from xsec_sym.kernels.visible_normals import (
 
 __all__ = [
     "CrossSection",
+    "HalfSpace",
+    "albedo_lambert_sphere",
+    "albedo_lambert_sphere_inverse",
     "brdf_isotropic",
+    "brdf_lambert_sphere",
     "cross_section",
     "h_isotropic",
     "lambda_beckmann",
     "lambda_ggx",
+    "lambert_sphere_coefficients",
     "ndf_beckmann",
     "ndf_ellipsoidal",
     "ndf_ggx",
     "ndf_spherical_gaussian",
+    "phase_lambert_sphere",
+    "sample_lambert_sphere",
     "sample_visible_ggx",
     "sample_visible_spherical_gaussian",
     "sel",
