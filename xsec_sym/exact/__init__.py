@@ -14,6 +14,7 @@ from xsec_sym.exact.distributions import (
     ggx,
     spherical_gaussian,
 )
+from xsec_sym.exact.lambert_sphere import PhaseLambertSphere
 from xsec_sym.exact.lobes import LobeGGX, ggx_anisotropic
 from xsec_sym.exact.normals import NormalsBeckmann, NormalsGGX, NormalsKagiwadaKalaba
 from xsec_sym.exact.revolution import SpheroidFacets, SpheroidRadius, SpheroidRate, SpheroidSlope
@@ -25,6 +26,7 @@ __all__ = [
     "NormalsBeckmann",
     "NormalsGGX",
     "NormalsKagiwadaKalaba",
+    "PhaseLambertSphere",
     "RingCrossSection",
     "RingMean",
     "RingSpread",
