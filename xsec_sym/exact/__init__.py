@@ -14,7 +14,7 @@ from xsec_sym.exact.distributions import (
     ggx,
     spherical_gaussian,
 )
-from xsec_sym.exact.lambert_sphere import PhaseLambertSphere
+from xsec_sym.exact.lambert_sphere import CharacteristicTrial, DispersionTrial, HTrial, PhaseLambertSphere
 from xsec_sym.exact.lobes import LobeGGX, ggx_anisotropic
 from xsec_sym.exact.normals import NormalsBeckmann, NormalsGGX, NormalsKagiwadaKalaba
 from xsec_sym.exact.revolution import SpheroidFacets, SpheroidRadius, SpheroidRate, SpheroidSlope
@@ -22,6 +22,9 @@ from xsec_sym.exact.ring import AZIMUTH, RingCrossSection, RingMean, RingSpread,
 
 __all__ = [
     "AZIMUTH",
+    "CharacteristicTrial",
+    "DispersionTrial",
+    "HTrial",
     "LobeGGX",
     "NormalsBeckmann",
     "NormalsGGX",
