@@ -5,7 +5,7 @@ else. K follows from Psi by (23); H is shown to solve (20), and to be what (22) 
 not shown here.
 """
 
-from sympy import Function, Integral, Rational, Symbol, atan, exp, log, oo, pi, sqrt, symbols
+from sympy import Function, Integral, atan, exp, log, oo, pi, sqrt, symbols
 
 from xsec_sym.exact import CharacteristicTrial as Psi
 from xsec_sym.exact import DispersionTrial as K

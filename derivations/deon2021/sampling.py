@@ -52,8 +52,8 @@ one_ring = paper.claim(
     where=[UNIT],
     instances=TRIED,
     reduces=RING,
-    reading="the ring's normals have the cosine sqrt(xi_1) to the light, and it sends out 1 / pi of its cross-section "
-    "per steradian; over the ring this is 2 pi x 1 / (2 pi). " + MEAN,
+    reading="the ring's normals have the cosine sqrt(xi_1) to the light; seen from -mu it has its cross-section, of "
+    "which 1 / pi goes out per steradian and, as to the azimuth, 2 pi / (2 pi) per cosine. " + MEAN,
 )
 
 
@@ -96,3 +96,7 @@ paper.whole(
     printed=drawn,
     reading="by Tonelli the mean over xi_1 of 6.1 is the integral of 2 pi p g",
 )
+
+if __name__ == "__main__":
+    project.tell()
+    paper.tell()
