@@ -15,6 +15,7 @@ from xsec_sym.exact.distributions import (
     spherical_gaussian,
 )
 from xsec_sym.exact.half_space import HIsotropic, HMoment, HTransform, wiener_hopf
+from xsec_sym.exact.lambert_sphere import CharacteristicTrial, DispersionTrial, HTrial, PhaseLambertSphere
 from xsec_sym.exact.lobes import LobeGGX, ggx_anisotropic
 from xsec_sym.exact.normals import NormalsBeckmann, NormalsGGX, NormalsKagiwadaKalaba
 from xsec_sym.exact.revolution import SpheroidFacets, SpheroidRadius, SpheroidRate, SpheroidSlope
@@ -27,13 +28,17 @@ __all__ = [
     "BelowGaussian",
     "BelowLogistic",
     "BelowUniform",
+    "CharacteristicTrial",
+    "DispersionTrial",
     "HIsotropic",
     "HMoment",
     "HTransform",
+    "HTrial",
     "LobeGGX",
     "NormalsBeckmann",
     "NormalsGGX",
     "NormalsKagiwadaKalaba",
+    "PhaseLambertSphere",
     "RingCrossSection",
     "RingMean",
     "RingSpread",

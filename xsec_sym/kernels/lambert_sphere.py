@@ -181,7 +181,7 @@ def _half_space(c: float, grazing: bool) -> HalfSpace:
 
 def _brdf(mu_i: np.ndarray, mu_o: np.ndarray, phi: np.ndarray, c: np.ndarray) -> np.ndarray:
     inside = (mu_i >= 0.0) & (mu_i <= 1.0) & (mu_o >= 0.0) & (mu_o <= 1.0) & np.isfinite(phi) & (c >= 0.0) & (c <= 1.0)
-    value = np.where(inside, np.where(c > 0.0, np.inf, 0.0), np.nan)
+    value = np.where(inside, np.inf, np.nan)
     some = np.flatnonzero(inside & (c > 0.0) & (mu_i + mu_o > 0.0))
     mu_i, mu_o, phi, c = mu_i[some], mu_o[some], phi[some], c[some]
 
