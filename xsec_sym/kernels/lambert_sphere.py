@@ -181,7 +181,7 @@ def _half_space(c: float, grazing: bool) -> HalfSpace:
 
 def _brdf(mu_i: np.ndarray, mu_o: np.ndarray, phi: np.ndarray, c: np.ndarray) -> np.ndarray:
     inside = (mu_i >= 0.0) & (mu_i <= 1.0) & (mu_o >= 0.0) & (mu_o <= 1.0) & np.isfinite(phi) & (c >= 0.0) & (c <= 1.0)
-    value = np.where(inside, np.inf, np.nan)
+    value = np.where(inside, np.where(mu_i + mu_o > 0.0, 0.0, np.inf), np.nan)
     some = np.flatnonzero(inside & (c > 0.0) & (mu_i + mu_o > 0.0))
     mu_i, mu_o, phi, c = mu_i[some], mu_o[some], phi[some], c[some]
 
@@ -205,8 +205,8 @@ def brdf_lambert_sphere(
     """The BRDF of a half-space sparsely filled with Lambertian spheres of diffuse albedo c, exact in every order.
 
     Per steradian (1/sr): the radiance that leaves at cosine mu_o, over the irradiance of a beam that arrives at cosine
-    mu_i. It is symmetric in the two; for c = 1 its projected integral over mu_o and phi is 1. It is 0 for c = 0, and
-    infinite where both cosines are 0.
+    mu_i. It is symmetric in the two; for c = 1 its projected integral over mu_o and phi is 1. It is 0 for c = 0,
+    except where both cosines are 0: there it is infinite for every c.
 
     mu_i, mu_o: cosines in [0, 1]. phi: azimuth in radians between the two directions, both pointing outward, so that
     phi = 0 is backscattering. c: in [0, 1]. Shapes broadcast; anything else, NaN and infinities included, gives NaN.
