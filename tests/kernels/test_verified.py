@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from sympy import lambdify, pi, symbols
+from sympy import Integral, Symbol, lambdify, pi, symbols
 
 from xsec_sym import kernels, ledger
 
@@ -78,6 +78,35 @@ def test_the_spheroidal_lobe_is_the_verified_expression():
         for rough in (1e-8, 1e-3, 0.3, 1.0):
             with mp.workdps(400):
                 assert near(kernels.ssl(m, rough), reference(mp.acos(mpf(m)), mpf(rough)))
+
+
+@pytest.mark.parametrize(("name", "entry"), [("smith_g1", "20.4"), ("smith_g2", "21.4"), ("smith_g2_given_g1", "22.3")])
+def test_smith_is_the_verified_expression(name, entry):
+    assert ledger[f"dupuy2016:{entry}"].verdict == "proved"
+    form = ledger[f"dupuy2016:{entry}"].form
+    names = sorted(form.free_symbols, key=lambda s: s.name)  # Lambda_i before Lambda_o
+    reference = lambdify(names, form, "mpmath")
+    for pair in ((0.0, 0.3), (1e-12, 1e-9), (0.7, 0.2), (3e5, 1e9), (1e200, 7.0)):
+        lam = pair[: len(names)]
+        with mp.workdps(400):
+            assert near(getattr(kernels, name)(*lam), reference(*map(mpf, lam)))
+
+
+def test_the_isotropic_half_space_is_the_verified_expression():
+    """`dupuy2016:31` as it is printed, integrated anew; the kernel rests on another integral."""
+    assert {ledger[f"dupuy2016:{label}"].verdict for label in ("30", "31")} == {"confirmed"}
+    form = ledger["dupuy2016:31"].form
+    a, cosine = sorted(form.free_symbols, key=lambda s: s.name)
+    (integral,) = form.atoms(Integral)
+    t, value = integral.limits[0][0], Symbol("value")
+    integrand = lambdify([t, cosine, a], integral.function, "mpmath")
+    whole = lambdify([cosine, a, value], form.xreplace({integral: value}), "mpmath")
+    for mu in (0.05, 0.6, 1.0):
+        for c in (0.2, 0.9):
+            with mp.workdps(30):
+                area = mp.quad(lambda at: integrand(at, mpf(mu), mpf(c)), [mpf(0), mp.pi / 4, mp.pi / 2])
+                want = whole(mpf(mu), mpf(c), area)
+                assert abs(mpf(float(kernels.h_isotropic(mu, c))) / want - 1) < mpf(10) ** -14
 
 
 def test_the_table_of_kernels_is_complete():
