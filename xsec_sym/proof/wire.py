@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import sympy
-from sympy import Basic, Integer, Rational, Symbol, Tuple
+from sympy import Basic, Float, Integer, Rational, Symbol, Tuple
 from sympy.core.function import FunctionClass
 
 _ASSUMED = ("real", "integer", "nonnegative", "positive")
@@ -129,6 +129,8 @@ def encode(value: Any) -> Any:
         return ["int", str(value)]
     if isinstance(value, Rational):
         return ["int", str(value.p), str(value.q)]
+    if isinstance(value, Float):
+        return ["dec", str(value), value._prec]
     if isinstance(value, Symbol):
         return ["sym", value.name, *(a for a in _ASSUMED if getattr(value, f"is_{a}") is True)]
     if value in _NAMES:
@@ -154,6 +156,8 @@ def decode(data: Any, symbols: dict[str, Symbol] | None = None) -> Any:
         return [decode(v, symbols) for v in rest]
     if head == "int":
         return Rational(*(int(r) for r in rest))
+    if head == "dec":
+        return Float(rest[0], precision=rest[1])
     if head == "sym":
         name, *assumed = rest
         return (symbols or {}).get(name) or Symbol(name, **dict.fromkeys(assumed, True))
