@@ -41,7 +41,7 @@ def by_directions(c: float) -> float:
     """
     if c == 1:
         return 1.0
-    orders, _, _, weight, _, phi = discrete(0, flight(), c)
+    orders, _, _, weight, _, phi = discrete(0, flight(), c, 64, 3)
     return _returned(weight, phi[orders.index(1)])
 
 
@@ -80,6 +80,11 @@ def _table(doubling: bool) -> np.polynomial.Chebyshev:
     albedo, degree = by_doubling if doubling else by_directions, 18
     s = (1 - np.cos(np.pi * np.arange(degree + 1) / degree)) / 2
     return np.polynomial.Chebyshev.fit(s, [albedo(1 - x * x) for x in s], degree, domain=[0, 1])
+
+
+def interpolated(c: Array) -> Array:
+    """`by_doubling`, which loses digits where c is near 1, by way of its table."""
+    return _table(True)(np.sqrt(1 - np.asarray(c, dtype=np.float64)))
 
 
 def particle(k_d: Array, doubling: bool = False) -> Array:

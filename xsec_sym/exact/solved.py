@@ -156,7 +156,7 @@ class AlbedoLambertSphere(Solved):
     """The Bond albedo of a half-space with the single-scattering albedo c."""
 
     symbol = "k_d"
-    routes = (lambda c: _by_albedo(bond.by_directions, c), lambda c: _by_albedo(bond.by_doubling, c))
+    routes = (lambda c: _by_albedo(bond.by_directions, c), bond.interpolated)
     methods = ("discrete directions and a singular value decomposition", "layers that are doubled")
 
 

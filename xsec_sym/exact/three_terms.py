@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 FLIGHT = (1.0, -4 / 3, 5 / 16)
-NODES, POWER = 64, 3
+NODES, POWER = 64, 5
 STEPS = 60
 
 

@@ -31,7 +31,8 @@ AGREED = 10
 MUTANTS = 8
 UNSTATED = 10  # times its own error is what a form may miss by where the source states no accuracy
 GRID = {1: (241,), 2: (61, 61), 3: (17, 17, 17), 4: (9, 9, 9, 9)}
-ROUNDS, AROUND = 5, {1: 9, 2: 5, 3: 3, 4: 3}
+# rounds of points around the worst, and how many each way: no nearer to an end than a solver can bear
+ROUNDS, AROUND = {1: 3, 2: 4, 3: 4, 4: 4}, {1: 9, 2: 5, 3: 3, 4: 3}
 OPEN = 2.0**-12  # how near to an end that does not belong to the domain, as a share of its length in t
 
 
@@ -75,6 +76,7 @@ class _Bench:
     maps: list[Any] = field(default_factory=list)
     sets: list[_Points] = field(default_factory=list)
     scale: float = 1.0
+    typical: float = 1.0
     digits: int = 0
 
     def __post_init__(self) -> None:
@@ -117,23 +119,31 @@ class _Bench:
             raise Unmeasured(f"a method has no value at {self.shown(self._at(given, bad))}")
         points = _Points(t, given, left)
         self.sets.append(points)
+        if len(self.sets) == 1:
+            self.typical = max(float(np.median(abs(left[0]))), 1e-300)
         self.scale = max(self.scale if len(self.sets) > 1 else 0.0, float(abs(left[0]).max()))
         self._agree()
         return points
 
     def _agree(self) -> None:
-        """To how many digits both routes agree, where they agree least; over the largest value where errors are
-        absolute."""
+        """To how many digits both routes agree, where they agree least."""
         worst = 0.0
         for points in self.sets:
             first, second = points.left
-            over = np.maximum(abs(first), abs(second)) if self.relative else self.scale
+            over = self._over(first, second)
             with np.errstate(all="ignore"):
                 gap = np.where(first == second, 0.0, abs(first - second) / over)
             worst = max(worst, float(gap.max()))
         self.digits = 15 if worst == 0 else min(15, floor(-log10(worst)))
         if not worst < 10.0**-AGREED:
             raise Unmeasured(f"the two methods agree on {max(self.digits, 0)} digits only")
+
+    def _over(self, first: Array, second: Array) -> Any:
+        """What a difference is taken over: the larger value, or a typical one where both vanish; where errors are
+        absolute, the largest value of all."""
+        if not (self.relative or self.exact):
+            return self.scale
+        return np.maximum(np.maximum(abs(first), abs(second)), 1e-3 * self.typical if self.exact else 0.0)
 
     def refine(self, t: Array, width: float) -> None:
         """More points around one."""
@@ -179,14 +189,14 @@ class _Bench:
         with np.errstate(all="ignore"):
             gap = abs(right - left)
             if self.exact:
-                return gap / max(self.scale, 1e-300)
+                return gap / self._over(left, right)
             return gap / abs(left) if self.relative else gap
 
     def searched(self, form: Expr, *, partial: bool = False) -> _Errors:
         """The largest error that can be found."""
         found = self.errors(form, partial=partial)
         width = 1.5 / (GRID[len(self.maps)][0] - 1)
-        for _ in range(ROUNDS):
+        for _ in range(ROUNDS[len(self.maps)]):
             if found is None:
                 break
             self.refine(self.worst, width)
