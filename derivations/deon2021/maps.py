@@ -43,8 +43,8 @@ sampling.measured(
     within=Rational(5, 10000),
     along=STRAIGHT_ON,
     statement=True,
-    reading=SHARE + "; it holds but for 0.9978 < xi < 0.9999, where little light goes; no one digit in place of another "
-    "makes it much better, though with 0.397325 for 0.397225 it would pass, by 0.0000009",
+    reading=SHARE + "; it holds but for 0.9978 < xi < 0.9999, where little light goes; no other digit in "
+    "place of one makes it much better, though with 0.397325 for 0.397225 it would pass, by 0.0000009",
 )
 
 # --- energy ---------------------------------------------------------------------------------------------
@@ -79,8 +79,8 @@ zeroth.measured(
     statement=True,
     reading="the light of (18) that leaves, with the fits as mended; what is scattered once and has the whole phase "
     "function replaces what has three terms of it; modes other than that of order 0 carry none. The text speaks of "
-    "grazing angles: the loss is 0.6 percent in the limit mu_i = 0, 1.5 percent at 0.05, 0.9 percent at 0.5 and largest "
-    "at normal incidence, most of it by (39), whose error is largest at c = 1",
+    "grazing angles: the loss is 0.6 percent in the limit mu_i = 0, 1.5 percent at 0.05, 0.9 percent at 0.5 and "
+    "largest at normal incidence, most of it by (39), whose error is largest at c = 1",
 )
 
 # --- albedo ---------------------------------------------------------------------------------------------

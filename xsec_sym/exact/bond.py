@@ -54,8 +54,8 @@ def by_doubling(c: float) -> float:
     """
     if c == 1:
         return 1.0
-    # few nodes, as the thin layer must be thin against the smallest cosine, and digits go with it
-    mu, weight = nodes(20, 2)
+    # no crowding: the first layer is thin against the smallest cosine, and digits go with it
+    mu, weight = nodes(72, 1)
     a = np.array(flight())
     signs, root = (-1.0) ** np.arange(a.size), np.sqrt(weight)
     rows = root * legendre(0, list(range(a.size)), mu)
@@ -77,14 +77,19 @@ def by_doubling(c: float) -> float:
 @lru_cache(maxsize=2)
 def _table(doubling: bool) -> np.polynomial.Chebyshev:
     """The albedo in s = sqrt(1 - c), in which it is smooth."""
-    albedo, degree = by_doubling if doubling else by_directions, 18
-    s = (1 - np.cos(np.pi * np.arange(degree + 1) / degree)) / 2
+    albedo, degree = by_doubling if doubling else by_directions, 17
+    # s = 0 is known, and next to it a solver loses digits
+    s = np.r_[0, 0.05 + 0.95 * (1 - np.cos(np.pi * np.arange(25) / 24)) / 2]
     return np.polynomial.Chebyshev.fit(s, [albedo(1 - x * x) for x in s], degree, domain=[0, 1])
 
 
-def interpolated(c: Array) -> Array:
-    """`by_doubling`, which loses digits where c is near 1, by way of its table."""
-    return _table(True)(np.sqrt(1 - np.asarray(c, dtype=np.float64)))
+def returned(c: Array, doubling: bool = False) -> Array:
+    """The Bond albedo at any single-scattering albedo, by way of the table: a solver loses digits near c = 1.
+
+    >>> returned(np.array([0.0, 1.0])).round(12) + 0.0
+    array([0., 1.])
+    """
+    return _table(doubling)(np.sqrt(1 - np.asarray(c, dtype=np.float64)))
 
 
 def particle(k_d: Array, doubling: bool = False) -> Array:

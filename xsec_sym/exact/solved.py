@@ -7,6 +7,7 @@ are judged in `proof/measured.py`.
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import factorial
 from typing import Any, ClassVar
 
 import numpy as np
@@ -28,6 +29,11 @@ class Solved(Function):
     methods: ClassVar[tuple[str, str]]
     symbol = ""
 
+    def __init_subclass__(cls, **rest: Any) -> None:
+        super().__init_subclass__(**rest)
+        if cls.routes[0] is cls.routes[1]:
+            raise TypeError(f"{cls.__name__} has one route only")
+
     @classmethod
     def eval(cls, *args: Any) -> None:
         return None
@@ -45,14 +51,14 @@ class Solved(Function):
         return True
 
 
-def _by_albedo(solve: Callable[..., Array], c: Any, *rest: Any) -> Array:
+def _by_albedo(solve: Callable[..., Any], c: Any, *rest: Any) -> Array:
     """``solve(c, *rest)`` for arrays: once for each albedo that occurs."""
-    c, *rest = np.broadcast_arrays(np.asarray(c, dtype=np.float64), *rest)
+    c, *others = np.broadcast_arrays(np.asarray(c, dtype=np.float64), *rest)
     found = np.full(c.shape, np.nan)
     for value in np.unique(c[np.isfinite(c)]):
         here = c == value
         if 0 <= value <= 1:
-            found[here] = solve(float(value), *(np.asarray(r, dtype=np.float64)[here] for r in rest))
+            found[here] = solve(float(value), *(np.asarray(r, dtype=np.float64)[here] for r in others))
     return found
 
 
@@ -84,7 +90,7 @@ NAMES = (("A", "B", "C", "D", "E", "F"), ("l", "m"))
 
 
 def _constants(solve: Callable[[int, float], Array]) -> Route:
-    def at(order: int, index: int, c: float) -> float:
+    def at(order: int, index: int, c: float) -> Any:
         q = solve(int(order), c)
         if order == 1:
             return float(q[0, 1] / q[0, 0] if index == 0 else 2 * q[1, 1] ** 2 / 3)
@@ -156,7 +162,7 @@ class AlbedoLambertSphere(Solved):
     """The Bond albedo of a half-space with the single-scattering albedo c."""
 
     symbol = "k_d"
-    routes = (lambda c: _by_albedo(bond.by_directions, c), bond.interpolated)
+    routes = (bond.returned, lambda c: bond.returned(c, doubling=True))
     methods = ("discrete directions and a singular value decomposition", "layers that are doubled")
 
 
@@ -171,7 +177,11 @@ class ParticleAlbedo(Solved):
 
 def _rest(theta: Array) -> Array:
     """The share of the light that is scattered by less than theta."""
-    return (2 * theta + theta * np.cos(2 * theta) - 1.5 * np.sin(2 * theta)) / (3 * np.pi)
+    x, series = np.minimum(theta, 0.5), np.zeros(np.shape(theta))
+    for k in range(2, 14):  # where the closed form would cancel
+        series += (-4.0) ** k * (2 * k - 2) / factorial(2 * k + 1) * x ** (2 * k + 1)
+    closed = 2 * theta + theta * np.cos(2 * theta) - 1.5 * np.sin(2 * theta)
+    return np.where(theta < 0.5, series, closed) / (3 * np.pi)
 
 
 def _rest_by_quadrature(theta: Array) -> Array:
@@ -207,7 +217,7 @@ class SampledCosine(Solved):
     methods = ("the distribution in closed form, halved down", "the distribution by quadrature, halved down")
 
 
-def heads(e: Expr) -> set[type]:
+def heads(e: Expr) -> set[type[Solved]]:
     """The kinds of solved quantities in an expression."""
     return {type(node) for node in e.atoms(Solved)}
 

@@ -107,7 +107,7 @@ def by_equation(m: int, mu: Array, c: float) -> Array:
 
 @lru_cache(maxsize=1)
 def _trapezium() -> tuple[Array, Array, Array]:
-    """t and dt of the doubly exponential rule on (0, oo), and the integrals of mu^n / (1 + t^2 mu^2) for n = 2, 4, 6."""
+    """t and dt of the doubly exponential rule on (0, oo); the integrals of mu^n / (1 + t^2 mu^2), n = 2, 4, 6."""
     u = np.arange(-4.2, 4.2, 0.04)
     t = np.exp(np.pi / 2 * np.sinh(u))
     small = np.minimum(t, 0.3)

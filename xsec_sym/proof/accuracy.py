@@ -77,8 +77,8 @@ class Measure:
     """What is asked of the form.
 
     ``within`` is the accuracy stated for it, None where none is stated; ``relative`` says whether it is relative to the
-    left side. ``exact`` asks for equality instead. ``along`` gives variables in terms of t in [0, 1], so that the points
-    crowd where the error changes fast; each must run over the whole range of its variable.
+    left side. ``exact`` asks for equality instead. ``along`` gives variables in terms of t in [0, 1], so that
+    points crowd where the error changes fast; each must run over the whole range of its variable.
     """
 
     within: Expr | None = None

@@ -211,19 +211,17 @@ class Source:
             raise ValueError(f"{self.key}:{label} says nothing: give a printed or a corrected form")
         if exact and (within is not None or relative):
             raise ValueError(f"{self.key}:{label} is exact, or near to an accuracy, but not both")
-        target, *sides = (None if side is None else sympify(side) for side in (left, printed, corrected))
+        target = sympify(left)
+        sides = [None if side is None else sympify(side) for side in (printed, corrected)]
         if not (_solved(target) or target.has(Integral)):
             raise ValueError(f"{self.key}:{label} has a left side that no two methods evaluate")
         if any(side is not None and _solved(side) & _solved(target) for side in sides):
             raise ValueError(f"{self.key}:{label} has the same solved quantity on both sides, so it tests nothing")
-        if exact:
-            kind = "statement" if statement else "equation"
-        else:
-            kind = "accuracy" if statement else "approximation"
+        kinds = ("statement", "equation") if exact else ("accuracy", "approximation")
         return self._add(
             label,
             title,
-            kind=kind,
+            kind=kinds[0] if statement else kinds[1],
             left=target,
             printed=sides[0],
             corrected=sides[1],

@@ -17,7 +17,7 @@ import numpy as np
 from sympy import Expr, Symbol, sympify
 
 from xsec_sym.exact.solved import heads
-from xsec_sym.proof.accuracy import T
+from xsec_sym.proof.accuracy import Measure, T
 from xsec_sym.proof.domain import Interval
 from xsec_sym.proof.mutants import mutants
 from xsec_sym.proof.say import said
@@ -82,12 +82,13 @@ class _Bench:
     def __post_init__(self) -> None:
         domain, measure = self.claim.domain, self.claim.measure
         assert measure is not None
-        if domain.conditions or not domain.variables or not all(isinstance(v, Interval) for v in domain.variables):
+        ranges = [v for v in domain.variables if isinstance(v, Interval)]
+        if domain.conditions or not ranges or len(ranges) < len(domain.variables):
             raise Unmeasured("only ranges of real variables can be measured")
         self.symbols = domain.symbols
         self.relative, self.exact = measure.relative, measure.exact
         along = dict(measure.along)
-        for v in domain.variables:
+        for v in ranges:
             expr = along.get(v.symbol, v.low + (v.high - v.low) * T)
             ends = {sympify(expr).subs(T, e) for e in (0, 1)}
             if ends != {v.low, v.high}:
@@ -175,7 +176,7 @@ class _Bench:
                 spread = np.where(finite, sizes.max(axis=0) - sizes.min(axis=0), 0.0)
             slack = max(slack, float(spread.max()))
             k = int(size.argmax())
-            if tolerance is not None:
+            if tolerance is not None and points is self.sets[0]:
                 below, seen = below + int((size[finite] <= tolerance).sum()), seen + int(finite.sum())
             if best is None or size[k] > best.size:
                 best = _Errors(float(size[k]), self._at(points.given, k), float(points.left[0][k]),
@@ -206,12 +207,8 @@ class _Bench:
             raise Unmeasured(f"{said(form)} has no value at some of the points")
         return found
 
-    @staticmethod
-    def _key(symbols: Sequence[Symbol], given: Sequence[Array], k: int) -> dict[Symbol, float]:
-        return {s: float(g[k]) for s, g in zip(symbols, given, strict=True)}
-
     def _at(self, given: Sequence[Array], k: int) -> dict[Symbol, float]:
-        return self._key(self.symbols, given, k)
+        return {s: float(g[k]) for s, g in zip(self.symbols, given, strict=True)}
 
     @staticmethod
     def shown(point: dict[Symbol, float]) -> dict[str, str]:
@@ -278,6 +275,10 @@ def _word(claim: Claim, measure: Measure, holds: bool, mended: bool) -> str:
 def _fooled(bench: _Bench, claim: Claim, tolerance: float, exact: bool, evidence: dict[str, Any]) -> int:
     """Try to fool the check with altered forms: how many miss the tolerance."""
     killed, near, equal = 0, 0, 0
+    for rival in (-claim.form, 2 * claim.form) if claim.form != 0 else ():
+        found = bench.errors(rival)
+        if found is None or not found.size - found.slack > tolerance:
+            raise Unmeasured(f"the check lets {said(rival)} pass")
     for rival in mutants(claim.form, list(claim.domain.symbols)):
         try:
             found = bench.errors(rival)
@@ -304,10 +305,9 @@ def _fooled(bench: _Bench, claim: Claim, tolerance: float, exact: bool, evidence
 
 def _same(bench: _Bench, rival: Expr, form: Expr) -> bool:
     """Whether an altered form is the form itself, to rounding."""
-    runs = [compiled(e, bench.symbols, 0) for e in (rival, form)]
-    return all(
-        np.allclose(*(run(points.given) for run in runs), rtol=1e-12, atol=1e-13 * bench.scale) for points in bench.sets
-    )
+    first, second = (compiled(e, bench.symbols, 0) for e in (rival, form))
+    near = [np.allclose(first(p.given), second(p.given), rtol=1e-12, atol=1e-13 * bench.typical) for p in bench.sets]
+    return all(near)
 
 
 def _witness(bench: _Bench, error: _Errors) -> dict[str, Any]:

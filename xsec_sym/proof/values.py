@@ -68,21 +68,22 @@ def _outermost(e: Expr) -> list[Integral]:
 
 
 def _integral(i: Integral, symbols: Sequence[Symbol], route: int) -> Run:
-    """Over one variable between finite ends, with nodes crowded at both of them."""
-    if len(i.limits) != 1 or len(i.limits[0]) != 3:
-        raise NoValues("only integrals over one variable between two ends are evaluated")
-    variable, *ends = i.limits[0]
-    if any(end.is_infinite for end in ends):
-        raise NoValues("integrals over an infinite range are not evaluated")
-    x, weight = _rule(route)
+    """Between finite ends, with nodes crowded at both of them; the last variable is the outermost."""
+    *others, last = i.limits
+    if len(last) != 3 or any(end.is_infinite for end in last[1:]):
+        raise NoValues("only integrals between finite ends are evaluated")
+    variable, *ends = last
+    dummy = Dummy(variable.name)  # a variable of the claim may have its name
     low, high = (compiled(end, symbols, route) for end in ends)
-    inner = compiled(i.function, [*symbols, variable], route)
+    body = Integral(i.function, *others) if others else i.function
+    inner = compiled(body.subs(variable, dummy), [*symbols, dummy], route)
+    x, weight = _rule(route)
 
     def at(given: Sequence[Array]) -> Array:
-        given = [np.asarray(g, dtype=np.float64)[..., None] for g in given]
-        a, b = low(given), high(given)
-        return (np.broadcast_to(inner([*given, a + (b - a) * x]), (*np.broadcast_shapes(*(g.shape[:-1] for g in given)), x.size))
-                * weight).sum(-1) * (b - a)[..., 0]  # fmt: skip
+        columns = [np.asarray(g, dtype=np.float64)[..., None] for g in given]
+        a, b = low(columns), high(columns)
+        found = inner([*columns, a + (b - a) * x]) * weight
+        return found.sum(-1) * (b - a)[..., 0]
 
     return at
 

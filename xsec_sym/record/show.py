@@ -63,8 +63,8 @@ def _head(entry: Entry) -> str:
     place = f"section {entry.section}" if entry.section else ""
     head = f"{entry.id}  {entry.title}" + (f"  ({entry.source}, {place})" if place else "")
     word = entry.verdict + (f" to {entry.digits} digits" if entry.verdict == "confirmed" and entry.digits else "")
-    meaning = MEASURED if word.startswith("confirmed") and "digits agreed on" in entry.evidence else MEANING[entry.verdict]
-    return f"{head}\n{word}: {meaning}"
+    solved = entry.verdict == "confirmed" and "digits agreed on" in entry.evidence
+    return f"{head}\n{word}: {MEASURED if solved else MEANING[entry.verdict]}"
 
 
 def _formula(entry: Entry, name: str) -> str:
