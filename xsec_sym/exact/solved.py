@@ -144,7 +144,7 @@ class ModeLambertSphere(Solved):
     """f^(m)(mu_i, mu_o, c), per steradian: the arguments are m and these; phi = 0 sends light back.
 
     >>> float(ModeLambertSphere.routes[0](0, 1.0, 1.0, 0.5).round(10))
-    0.0871486085
+    0.0600372688
     """
 
     routes = (_mode(True), _mode(False))
