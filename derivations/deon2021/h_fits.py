@@ -3,7 +3,7 @@
 The truth of each is what two solvers agree on (`xsec_sym/exact/solved.py`). Errors are the largest ones found.
 """
 
-from sympy import Float, Pow, Rational, exp, log, sqrt, symbols
+from sympy import Float, Mul, Pow, Rational, exp, log, sqrt, symbols
 
 from xsec_sym.exact.solved import HLambertSphere, ModeConstant
 from xsec_sym.proof import Source, interval
@@ -23,6 +23,11 @@ HALF_PERCENT, PERCENT = Rational(1, 200), Rational(1, 100)
 def d(digits):
     """A number as it is printed."""
     return Float(digits)
+
+
+def share(factor, of):
+    """A number times a difference, as it is printed: SymPy would multiply it out."""
+    return Mul(factor, of, evaluate=False)
 
 
 # --- H of order 1 ---------------------------------------------------------------------------------------
@@ -118,8 +123,17 @@ for label, index, name, printed in (
 # --- H of order 0 ---------------------------------------------------------------------------------------
 
 s = sqrt(1 - c)
-a = (d("1.50112") * s ** d("6.05435") + d("8.21644")) / (d("4.17593") - d("1.21222") * s)
-exponent = (d("7.7731") - d("0.565811") * s ** d("0.961546")) / (d("8.65912") - d("0.159974") * s**7)
+
+
+def a_of(s):
+    return (d("1.50112") * s ** d("6.05435") + d("8.21644")) / (d("4.17593") - d("1.21222") * s)
+
+
+def d_of(s):
+    return (d("7.7731") - d("0.565811") * s ** d("0.961546")) / (d("8.65912") - d("0.159974") * s**7)
+
+
+a, exponent = a_of(s), d_of(s)
 over_infinity = sqrt((c - 16) * (c - 1) * (4 * c + 9)) / 12
 hapke = (1 + a * mu**exponent) / (1 + a * mu**exponent * over_infinity)
 
@@ -148,14 +162,14 @@ zeroth.measured(
     reading=THREE_TERMS,
 )
 
-A, D = symbols("a d", real=True)
-for label, name, symbol, form in (("fit.a", "a", A, a), ("fit.d", "d", D, exponent)):
+root = symbols("s", real=True)
+for label, name, form in (("fit.a", "a", a_of), ("fit.d", "d", d_of)):
     zeroth.whole(
         label,
         f"the constant {name} of (37)",
         ["37"],
-        left=symbol,
-        printed=form,
+        left=symbols(name, real=True),
+        printed=form(root),
         reading="a fitted number has no truth of its own: it is judged by the H function that it gives; s is the root "
         "of 1 - c",
     )
@@ -181,24 +195,24 @@ zeroth.whole("38", "the constants A and E of the mode of order 0", ["38.A", "38.
              printed=69 * c / 128)  # fmt: skip
 
 w = 1 - c
-B_BELOW = d("0.182602") * w - d("0.665502") * s + d("0.964893")
-B_ABOVE = d("0.346689") * w ** Rational(3, 2) - d("0.777574") * w + d("0.515357") * s
+B_BELOW = share(d("0.182602"), w) - d("0.665502") * s + d("0.964893")
+B_ABOVE = d("0.346689") * w ** Rational(3, 2) - share(d("0.777574"), w)
 
 
 def c_of(root):
     """(40)."""
-    above = -d("5602.45") * w ** Rational(3, 2) + d("7487.99") * w - root * s + d("682.848")
-    return above / (d("1480.025") * w - d("4008.33") * s + d("5850.6"))
+    above = -d("5602.45") * w ** Rational(3, 2) + share(d("7487.99"), w) - root * s + d("682.848")
+    return above / (share(d("1480.025"), w) - d("4008.33") * s + d("5850.6"))
 
 
 FITS = {
-    "39": ("B", 1, (B_ABOVE - d("0.515357") * s + d("0.515357") * s * d("0.084463")) / B_BELOW,
-           (B_ABOVE - d("0.084463")) / B_BELOW, "a minus before 0.084463"),
+    "39": ("B", 1, (B_ABOVE + share(d("0.515357"), d("0.084463") * s)) / B_BELOW,
+           (B_ABOVE + d("0.515357") * s - d("0.084463")) / B_BELOW, "a minus before 0.084463"),
     "40": ("C", 2, c_of(d("24567.74")), c_of(d("2567.74")), "2567.74 for 24567.74: there is a digit too many"),
-    "41": ("D", 3, (d("166.883") * w ** Rational(3, 2) - d("327.48") * w + d("160.397") * s + d("0.285529"))
-           / (d("596.423") * w - d("412.984") * s + d("674.191")), None, ""),
-    "42": ("F", 5, (d("266.063") * w ** Rational(3, 2) - d("21.9141") * w - d("242.16") * s - d("1.9209"))
-           / (d("215.773") * w + d("457.42") * s + d("1499.9")), None, ""),
+    "41": ("D", 3, (d("166.883") * w ** Rational(3, 2) - share(d("327.48"), w) + d("160.397") * s + d("0.285529"))
+           / (share(d("596.423"), w) - d("412.984") * s + d("674.191")), None, ""),
+    "42": ("F", 5, (d("266.063") * w ** Rational(3, 2) - share(d("21.9141"), w) - d("242.16") * s - d("1.9209"))
+           / (share(d("215.773"), w) + d("457.42") * s + d("1499.9")), None, ""),
 }  # fmt: skip
 
 for label, (name, index, printed, corrected, edit) in FITS.items():

@@ -17,6 +17,7 @@ mapping = Source("deon2021", section="3.5")
 
 xi, mu_i, mu_o, phi, c, k_d = symbols("xi mu_i mu_o phi c k_d", real=True)
 d = Float
+share = h_fits.share
 
 # --- sampling -------------------------------------------------------------------------------------------
 
@@ -99,7 +100,7 @@ mapping.measured(
     "47",
     "the albedo of the material by the single-scattering albedo",
     left=AlbedoLambertSphere(c),
-    printed=(1 - d("0.453029") * (1 - c) - d("0.544162") * sqrt(1 - c)) / (d("1.42931") * sqrt(1 - c) + 1),
+    printed=(1 - share(d("0.453029"), 1 - c) - d("0.544162") * sqrt(1 - c)) / (d("1.42931") * sqrt(1 - c) + 1),
     where=[interval(c, 0, 1)],
     along={c: 1 - T**2},
     reading=WHOLE,

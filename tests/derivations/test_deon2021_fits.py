@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from sympy import Float
 
-from derivations.deon2021 import h_fits, maps, modes
+from derivations.deon2021 import fast, h_fits, maps, modes
 from xsec_sym.exact import bond, three_terms
 from xsec_sym.exact.solved import HLambertSphere, ModeConstant, ModeLambertSphere, SampledCosine, Solved
 from xsec_sym.proof.claim import REGISTRY
@@ -32,6 +32,7 @@ EXPECTED = {
     "deon2021:42": ("claim-holds", 1.28e-3, None),
     "deon2021:46": ("claim-holds", 6.38e-3, None),
     "deon2021:47": ("claim-holds", 2.29e-3, None),
+    "deon2021:48": ("claim-holds", 0.104, None),
     "deon2021:claim.energy": ("claim-fails", 2.11e-2, None),
     "deon2021:claim.h0-accuracy": ("claim-holds", 8.08e-3, None),
     "deon2021:claim.h1-accuracy": ("claim-holds", 3.66e-3, None),
@@ -56,7 +57,7 @@ def test_the_verdict_and_its_figures(name):
 
 
 def test_every_measured_claim_has_an_expected_verdict():
-    modules = {module.__name__ for module in (h_fits, maps, modes)}
+    modules = {module.__name__ for module in (fast, h_fits, maps, modes)}
     aside = ("whole", "definition", "out-of-scope")
     made = {claim.id for claim in REGISTRY.values() if claim.module in modules and claim.kind not in aside}
     assert made == set(EXPECTED)
@@ -118,6 +119,50 @@ def test_the_same_with_exact_constants_loses_nothing_but_the_terms_left_out():
         {maps.returned: 2 * maps.pi * maps.mu_o * (exact + maps.tail)}
     )
     assert compiled(whole, [maps.mu_i], 1)([np.array([1e-3, 0.3, 1])]) == pytest.approx(1, abs=2e-4)
+
+
+def test_the_fast_variant_is_as_near_as_a_third_of_what_it_stands_for():
+    claim = REGISTRY["deon2021:48"]
+    point = [np.array(v) for v in (0.05, 0.05, np.pi, 1.0)]
+    once, left, right = (
+        float(compiled(e, claim.domain.symbols, 0)(point)) for e in (fast.single, claim.left, claim.form)
+    )
+    assert abs(left - right) / (left - once) == pytest.approx(1 / 3, abs=0.02)
+    sizes = []
+    for mu in (1e-3, 1e-4, 1e-5, 1e-6):
+        point = [np.array(v) for v in (mu, mu, np.pi, 0.97)]
+        left, right = (float(compiled(e, claim.domain.symbols, 0)(point)) for e in (claim.left, claim.form))
+        sizes.append(left - right)
+    assert np.diff(sizes)[1:] == pytest.approx(np.diff(sizes)[0], rel=0.2) and sizes[-1] > 0.5
+
+
+def test_no_other_digit_makes_a_fit_of_a_constant_much_better():
+    """Half of the error at best, and that at its end c = 1."""
+    s = np.linspace(0, 1, 121)
+    w, c = s * s, 1 - s * s
+    below = {
+        1: ("0.346689 -0.777574 0.515357 -0.084463", "0.182602 -0.665502 0.964893"),
+        2: ("-5602.45 7487.99 -2567.74 682.848", "1480.025 -4008.33 5850.6"),
+        3: ("166.883 -327.48 160.397 0.285529", "596.423 -412.984 674.191"),
+        5: ("266.063 -21.9141 -242.16 -1.9209", "215.773 457.42 1499.9"),
+    }
+    for index, (top, bottom) in below.items():
+        truth = ModeConstant.routes[1](0, index, c)
+        printed = [*top.split(), *bottom.split()]
+
+        def size(texts, truth=truth):
+            k = [float(t) for t in texts]
+            fit = (k[0] * w**1.5 + k[1] * w + k[2] * s + k[3]) / (k[4] * w + k[5] * s + k[6])
+            return abs(fit - truth).max()
+
+        best = min(
+            size([*printed[:n], text[:i] + other + text[i + 1 :], *printed[n + 1 :]])
+            for n, text in enumerate(printed)
+            for i, digit in enumerate(text)
+            if digit.isdigit()
+            for other in "0123456789"
+        )
+        assert 0.35 < best / size(printed) <= 1
 
 
 def test_the_second_order_against_what_is_scattered_more_than_once():

@@ -89,7 +89,9 @@ def returned(c: Array, doubling: bool = False) -> Array:
     >>> returned(np.array([0.0, 1.0])).round(12) + 0.0
     array([0., 1.])
     """
-    return _table(doubling)(np.sqrt(1 - np.asarray(c, dtype=np.float64)))
+    c = np.asarray(c, dtype=np.float64)
+    found = np.clip(_table(doubling)(np.sqrt(np.clip(1 - c, 0, 1))), 0, 1)
+    return np.where((c >= 0) & (c <= 1), found, np.nan)
 
 
 def particle(k_d: Array, doubling: bool = False) -> Array:
@@ -98,8 +100,9 @@ def particle(k_d: Array, doubling: bool = False) -> Array:
     >>> bool(abs(particle(np.array([by_directions(0.7)])) - 0.7) < 1e-12)
     True
     """
+    k_d = np.asarray(k_d, dtype=np.float64)
     series = _table(doubling)
-    slope, s = series.deriv(), 1 - np.asarray(k_d, dtype=np.float64)
+    slope, s = series.deriv(), 1 - k_d
     for _ in range(30):
         s = np.clip(s - (series(s) - k_d) / slope(s), 0, 1)
-    return 1 - s * s
+    return np.where((k_d >= 0) & (k_d <= 1), 1 - s * s, np.nan)

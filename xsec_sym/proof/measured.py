@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 AGREED = 10
 MUTANTS = 8
 UNSTATED = 10  # times its own error is what a form may miss by where the source states no accuracy
-GRID = {1: (241,), 2: (61, 61), 3: (17, 17, 17), 4: (9, 9, 9, 9)}
+GRID = {1: (241,), 2: (61, 61), 3: (17, 17, 17), 4: (8, 8, 8, 8)}
 # rounds of points around the worst, and how many each way: no nearer to an end than a solver can bear
 ROUNDS, AROUND = {1: 3, 2: 4, 3: 4, 4: 4}, {1: 9, 2: 5, 3: 3, 4: 3}
 OPEN = 2.0**-12  # how near to an end that does not belong to the domain, as a share of its length in t
@@ -74,6 +74,7 @@ class _Bench:
     claim: Claim
     seed: int
     maps: list[Any] = field(default_factory=list)
+    ends: list[tuple[float, float]] = field(default_factory=list)
     sets: list[_Points] = field(default_factory=list)
     scale: float = 1.0
     typical: float = 1.0
@@ -97,6 +98,7 @@ class _Bench:
             low_first = sympify(expr).subs(T, 0) == v.low
             opened = (v.low_open, v.high_open) if low_first else (v.high_open, v.low_open)
             self.maps.append((compiled(expr, [T], 0), OPEN if opened[0] else 0.0, 1 - OPEN if opened[1] else 1.0))
+            self.ends.append((float(v.low), float(v.high)))
         self.left = [compiled(self.claim.left, self.symbols, route) for route in ROUTES]
         self._add(self._grid())
 
@@ -113,7 +115,7 @@ class _Bench:
         return np.array(list(product(*axes))).T
 
     def _add(self, t: Array) -> _Points:
-        given = [run([x]) for (run, _, _), x in zip(self.maps, t, strict=True)]
+        given = [np.clip(run([x]), *ends) for (run, _, _), ends, x in zip(self.maps, self.ends, t, strict=True)]
         left = [run(given) for run in self.left]
         if not all(np.isfinite(v).all() for v in (*given, *left)):
             bad = int(np.argmin(np.isfinite(np.array([*given, *left])).all(axis=0)))
@@ -311,7 +313,7 @@ def _same(bench: _Bench, rival: Expr, form: Expr) -> bool:
 
 
 def _witness(bench: _Bench, error: _Errors) -> dict[str, Any]:
-    return {"point": bench.shown(error.point), "left": f"{error.left:.12g}", "right": f"{error.right:.12g}"}
+    return {"point": bench.shown(error.point), "left": f"{error.left + 0.0:.12g}", "right": f"{error.right + 0.0:.12g}"}
 
 
 __all__ = ["AGREED", "judged"]
