@@ -41,8 +41,8 @@ paper.measured(
     along={**AWAY, c: 1 - T**2},
     reading="per steradian, phi = 0 sending light back, k_d the Bond albedo that belongs to c. The text states no "
     "accuracy: 0.11 is what was found, a third of what is scattered more than once there; where both cosines are below "
-    "0.002 the error grows like a logarithm. The truth is (18) without fits: what is scattered once has the whole phase "
-    "function, what is scattered more often has three terms of it",
+    "0.002 the error grows like a logarithm. The truth is (18) without fits: what is scattered once has the whole "
+    "phase function, what is scattered more often has three terms of it",
 )
 
 if __name__ == "__main__":

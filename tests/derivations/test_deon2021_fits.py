@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 from sympy import Float
@@ -9,6 +11,7 @@ from sympy import Float
 from derivations.deon2021 import fast, h_fits, maps, modes
 from xsec_sym.exact import bond, three_terms
 from xsec_sym.exact.solved import HLambertSphere, ModeConstant, ModeLambertSphere, SampledCosine, Solved
+from xsec_sym.proof import wire
 from xsec_sym.proof.claim import REGISTRY
 from xsec_sym.proof.values import compiled
 from xsec_sym.proof.verify import verify
@@ -216,3 +219,19 @@ def test_outside_of_the_range_there_is_no_value():
     assert np.isnan(HLambertSphere.routes[0](0, 0.5, 1.5)) and np.isnan(ModeConstant.routes[1](0, 1, -0.1))
     assert np.isnan(SampledCosine.routes[0](np.array([-0.1, 1.1]))).all()
     assert all(head.routes[0] is not head.routes[1] for head in Solved.__subclasses__())
+
+
+def test_every_form_comes_back_from_the_record_as_it_was():
+    for name in EXPECTED:
+        claim = REGISTRY[name]
+        for side in (claim.left, claim.printed, claim.corrected):
+            if side is not None:
+                assert wire.decode(json.loads(json.dumps(wire.encode(side)))) == side
+
+
+def test_what_is_printed_is_shown_as_it_is_printed():
+    shown = {name: REGISTRY[f"deon2021:{name}"].latex() for name in ("39", "40", "7", "fit.a")}
+    assert r"0.515357 \cdot 0.084463 \sqrt{1 - c}" in shown["39"] and r"0.777574 \left(1 - c\right)" in shown["39"]
+    assert "24567.74" in shown["40"] and "682.848" in shown["40"]
+    assert r"\xi^{0.0401885 \xi + 1.01938}" in shown["7"] and "s^{6.05435}" in shown["fit.a"]
+    assert str(REGISTRY["deon2021:36"].left) == "f^(0)(mu_i, mu_o, c)"

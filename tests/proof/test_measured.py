@@ -3,14 +3,15 @@ tolerances that anything meets, or by a form that is garbage."""
 
 from __future__ import annotations
 
+import json
 from itertools import count
 
 import numpy as np
 import pytest
-from sympy import Float, Integral, Max, Rational, cos, exp, log, sin, sqrt, symbols
+from sympy import Float, Integral, Max, Mul, Rational, cos, exp, log, sin, sqrt, symbols
 
 from xsec_sym.exact.solved import Solved
-from xsec_sym.proof import Source, interval
+from xsec_sym.proof import Source, interval, wire
 from xsec_sym.proof.accuracy import T
 from xsec_sym.proof.values import compiled
 from xsec_sym.proof.verify import verify
@@ -229,5 +230,9 @@ def test_decimals_stand_in_the_record_as_printed():
     entry = Entry.of(claim, verify(claim, {}))
     assert "0.0401885" in entry.printed and "1.01938" in entry.printed
     assert entry.form == form
+    for number in (Float("0.1") / 3, Float("1e-30"), Float(2) ** Float("0.5")):
+        assert wire.decode(json.loads(json.dumps(wire.encode(number)))) == number
+    as_printed = Mul(Float("0.777574"), 1 - x, evaluate=False)
+    assert wire.decode(wire.encode(as_printed)) == as_printed != Float("0.777574") * (1 - x)
     wider = source.measured("2", "a fit", left=Exponential(x), printed=form, where=[interval(x, 0, 1)], within=1)
     assert statement(claim).partition(",")[2] != statement(wider).partition(",")[2]

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import spherical_jn
 from sympy import Expr, Function
+from sympy.printing.pretty.stringpict import prettyForm
 
 from xsec_sym.exact import bond, three_terms
 from xsec_sym.exact.three_terms import Array
@@ -39,16 +40,28 @@ class Solved(Function):
         return None
 
     def _latex(self, printer: Any, exp: Any = None) -> str:
-        *order, last = self._set()
-        sup = f"^{{{exp}}}" if exp is not None else ""
-        arguments = ", ".join(printer._print(a) for a in last)
-        return rf"{''.join(order)}{sup}\left({arguments}\right)"
+        name, arguments = self._set()
+        power = f"^{{{exp}}}" if exp is not None else ""
+        return rf"{name}{power}\left({', '.join(printer._print(a) for a in arguments)}\right)"
 
-    def _set(self) -> list[Any]:
-        return [self.symbol, self.args]
+    def _sympystr(self, printer: Any) -> str:
+        name, arguments = self._set()
+        return f"{_plain(name)}({', '.join(printer._print(a) for a in arguments)})"
+
+    def _pretty(self, printer: Any) -> prettyForm:
+        name, arguments = self._set()
+        return prettyForm(*printer._print_seq(arguments, "(", ")", ", ").left(_plain(name)))
+
+    def _set(self) -> tuple[str, tuple[Any, ...]]:
+        """The name as LaTeX, and the arguments that are shown."""
+        return self.symbol, self.args
 
     def _eval_is_real(self) -> bool:
         return True
+
+
+def _plain(name: str) -> str:
+    return name.translate(str.maketrans("", "", "{}\\"))
 
 
 def _by_albedo(solve: Callable[..., Any], c: Any, *rest: Any) -> Array:
@@ -82,8 +95,8 @@ class HLambertSphere(Solved):
     routes = (_h(three_terms.by_equation), _h(three_terms.by_fock))
     methods = ("the nonlinear equation of H by Newton's method", "Fock's integral of log K")
 
-    def _set(self) -> list[Any]:
-        return [f"H^{{({self.args[0]})}}", self.args[1:]]
+    def _set(self) -> tuple[str, tuple[Any, ...]]:
+        return f"H^{{({self.args[0]})}}", self.args[1:]
 
 
 NAMES = (("A", "B", "C", "D", "E", "F"), ("l", "m"))
@@ -112,11 +125,11 @@ class ModeConstant(Solved):
     """
 
     routes = (_constants(three_terms.from_transport), _constants(three_terms.polynomials))
-    methods = ("the transport equation, over H from its nonlinear equation", "moments of H, by Fock's integral")
+    methods = ("the transport equation over H from its nonlinear equation", "moments of H from Fock's integral")
 
-    def _set(self) -> list[Any]:
+    def _set(self) -> tuple[str, tuple[Any, ...]]:
         order, index, c = self.args
-        return [NAMES[int(order)][int(index)], (c,)]
+        return NAMES[int(order)][int(index)], (c,)
 
 
 def _mode(transport: bool) -> Route:
@@ -148,10 +161,10 @@ class ModeLambertSphere(Solved):
     """
 
     routes = (_mode(True), _mode(False))
-    methods = ("the transport equation in discrete directions, refined by Newton's method", "H and moments of H")
+    methods = ("the transport equation in discrete directions and Newton's method", "H and moments of H")
 
-    def _set(self) -> list[Any]:
-        return [f"f^{{({self.args[0]})}}", self.args[1:]]
+    def _set(self) -> tuple[str, tuple[Any, ...]]:
+        return f"f^{{({self.args[0]})}}", self.args[1:]
 
 
 # --- the whole phase function ---------------------------------------------------------------------------
@@ -214,7 +227,7 @@ class SampledCosine(Solved):
 
     symbol = r"\mu"
     routes = (_cosine(_rest), _cosine(_rest_by_quadrature))
-    methods = ("the distribution in closed form, halved down", "the distribution by quadrature, halved down")
+    methods = ("bisection of the distribution in closed form", "bisection of the distribution by quadrature")
 
 
 def heads(e: Expr) -> set[type[Solved]]:
