@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 AGREED = 10
 MUTANTS = 8
 UNSTATED = 10  # times its own error is what a form may miss by where the source states no accuracy
-GRID = {1: (241,), 2: (61, 61), 3: (17, 17, 17), 4: (7, 7, 7, 7)}
+GRID = {1: (241,), 2: (61, 61), 3: (17, 17, 17), 4: (9, 9, 9, 9)}
 # rounds of points around the worst, and how many each way: no nearer to an end than a solver can bear
 ROUNDS, AROUND = {1: 3, 2: 4, 3: 4, 4: 4}, {1: 9, 2: 5, 3: 3, 4: 3}
 OPEN = 2.0**-12  # how near to an end that does not belong to the domain, as a share of its length in t
