@@ -1,6 +1,7 @@
 """What an accuracy claim says, as data: how near, and in which coordinates the error may be bounded.
 
-Nothing here decides. `approximate.py` bounds the error, and tries every expression given here at points.
+Nothing here decides. `approximate.py` bounds the error, and tries every expression given here at points; `measured.py`
+takes errors at many points, of quantities that only a solver gives.
 """
 
 from __future__ import annotations
@@ -66,3 +67,21 @@ class Accuracy:
     tail: Tail | None = None
     limit: Limit | None = None
     by: str = ""
+
+
+T = Symbol("t", real=True)
+
+
+@dataclass(frozen=True)
+class Measure:
+    """What is asked of the form.
+
+    ``within`` is the accuracy stated for it, None where none is stated; ``relative`` says whether it is relative to the
+    left side. ``exact`` asks for equality instead. ``along`` gives variables in terms of t in [0, 1], so that
+    points crowd where the error changes fast; each must run over the whole range of its variable.
+    """
+
+    within: Expr | None = None
+    relative: bool = False
+    exact: bool = False
+    along: tuple[tuple[Symbol, Expr], ...] = ()

@@ -10,9 +10,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from sympy import Expr, latex, sympify
+from sympy import Expr, Integral, Symbol, latex, sympify
 
-from xsec_sym.proof.accuracy import Accuracy
+from xsec_sym.proof.accuracy import Accuracy, Measure
 from xsec_sym.proof.domain import Domain, domain
 from xsec_sym.proof.magnitude import Magnitude
 
@@ -37,6 +37,7 @@ class Claim:
     parts: tuple[str, ...] = ()
     points: Mapping[Any, Any] = field(default_factory=dict)
     accuracy: Accuracy | None = None
+    measure: Measure | None = None
     module: str = ""
     prove: Callable[[Any], None] | None = None
 
@@ -182,6 +183,59 @@ class Source:
         """An accuracy that the source states of a form."""
         return self.approximation(label, title, statement=True, **rest)
 
+    def measured(
+        self,
+        label: str,
+        title: str,
+        *,
+        left: Any,
+        printed: Any = None,
+        corrected: Any = None,
+        edit: str = "",
+        where: Iterable[Any] = (),
+        reading: str = "",
+        statement: bool = False,
+        within: Any = None,
+        relative: bool = False,
+        exact: bool = False,
+        along: Mapping[Symbol, Any] | None = None,
+    ) -> Claim:
+        """A form near to a quantity that only a solver gives (`exact/solved.py`), judged at many points.
+
+        ``within``, ``relative``, ``exact`` and ``along`` are those of `Measure`. As a ``statement`` the claim is the
+        accuracy itself: it holds or fails.
+        """
+        if printed is not None and corrected is not None and not edit:
+            raise ValueError(f"{self.key}:{label} corrects the print without saying in words what to change")
+        if printed is None and corrected is None:
+            raise ValueError(f"{self.key}:{label} says nothing: give a printed or a corrected form")
+        if exact and (within is not None or relative):
+            raise ValueError(f"{self.key}:{label} is exact, or near to an accuracy, but not both")
+        target = sympify(left)
+        sides = [None if side is None else sympify(side) for side in (printed, corrected)]
+        if not (_solved(target) or target.has(Integral)):
+            raise ValueError(f"{self.key}:{label} has a left side that no two methods evaluate")
+        if any(side is not None and _solved(side) & _solved(target) for side in sides):
+            raise ValueError(f"{self.key}:{label} has the same solved quantity on both sides, so it tests nothing")
+        kinds = ("statement", "equation") if exact else ("accuracy", "approximation")
+        return self._add(
+            label,
+            title,
+            kind=kinds[0] if statement else kinds[1],
+            left=target,
+            printed=sides[0],
+            corrected=sides[1],
+            domain=domain(where),
+            edit=edit,
+            reading=reading,
+            measure=Measure(
+                None if within is None else sympify(within),
+                relative,
+                exact,
+                tuple((s, sympify(e)) for s, e in (along or {}).items()),
+            ),
+        )
+
     def inequality(self, label: str, title: str, greater: Any, lesser: Any = 0, **rest: Any) -> Claim:
         """A statement that one side is nowhere smaller than the other: the magnitude of the difference is itself."""
         gap = sympify(greater) - sympify(lesser)
@@ -219,3 +273,9 @@ def _defined(e: Expr) -> set[Expr]:
     from sympy import preorder_traversal
 
     return {node for node in preorder_traversal(e) if hasattr(node, "definition")}
+
+
+def _solved(e: Expr) -> set[Expr]:
+    from xsec_sym.exact.solved import Solved
+
+    return e.atoms(Solved)

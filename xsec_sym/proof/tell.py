@@ -12,6 +12,9 @@ from xsec_sym.proof.claim import REGISTRY, Claim
 from xsec_sym.proof.verdict import worst
 from xsec_sym.proof.verify import verify
 
+TOLD = ("largest error", "where", "proved bound", "reach", "holds to", "broken at", "largest error found", "at point",
+        "digits agreed on", "share of the points within", "error of the print")  # fmt: skip
+
 
 def tell(claims: Iterable[Claim]) -> None:
     """Verify the claims of a section and print how each one fares."""
@@ -37,7 +40,7 @@ def tell(claims: Iterable[Claim]) -> None:
         if verdict.witness:
             print(f"  ✗ the print fails at {verdict.witness['point']}:")
             print(f"    {verdict.witness['left']} against {verdict.witness['right']}")
-        for name in ("largest error", "where", "proved bound", "reach", "holds to", "broken at", "error of the print"):
+        for name in TOLD:
             if name in verdict.evidence:
                 print(f"    {name}: {_plainly(verdict.evidence[name])}")
         tried = verdict.evidence.get("witnesses")

@@ -9,6 +9,7 @@ from typing import Any
 
 from sympy import Expr, Symbol
 
+from xsec_sym.proof import measured
 from xsec_sym.proof.approximate import judged
 from xsec_sym.proof.checker import Certificate, lemmas, replay
 from xsec_sym.proof.claim import Claim
@@ -73,6 +74,8 @@ def _verify(
 ) -> Verdict:
     if claim.kind in ("definition", "out-of-scope"):
         return Verdict(claim.kind, note=claim.reading if claim.kind == "out-of-scope" else "")
+    if claim.measure is not None:
+        return measured.judged(claim, seed)
     if claim.accuracy is not None:
         return judged(claim, claims, recorded if count < WITNESSES else None)
     certificate, steps, refusal = _proof(claim, claims, recorded)

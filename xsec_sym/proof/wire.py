@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import sympy
-from sympy import Basic, Integer, Rational, Symbol, Tuple
+from mpmath.libmp import repr_dps, to_str
+from sympy import Basic, Float, Integer, Rational, Symbol, Tuple
 from sympy.core.function import FunctionClass
 
 _ASSUMED = ("real", "integer", "nonnegative", "positive")
@@ -129,6 +130,8 @@ def encode(value: Any) -> Any:
         return ["int", str(value)]
     if isinstance(value, Rational):
         return ["int", str(value.p), str(value.q)]
+    if isinstance(value, Float):
+        return ["dec", _decimal(value), value._prec]
     if isinstance(value, Symbol):
         return ["sym", value.name, *(a for a in _ASSUMED if getattr(value, f"is_{a}") is True)]
     if value in _NAMES:
@@ -140,6 +143,12 @@ def encode(value: Any) -> Any:
             return ["call", [name, *assumed], *(encode(a) for a in value.args)]
         raise TypeError(f"{name} has no place in the table of heads")
     return [name, *(encode(a) for a in value.args)]
+
+
+def _decimal(value: Float) -> str:
+    """As it was printed where that gives the same number back, else with the digits that do."""
+    text = str(value)
+    return text if Float(text, precision=value._prec) == value else to_str(value._mpf_, repr_dps(value._prec))
 
 
 def decode(data: Any, symbols: dict[str, Symbol] | None = None) -> Any:
@@ -154,6 +163,8 @@ def decode(data: Any, symbols: dict[str, Symbol] | None = None) -> Any:
         return [decode(v, symbols) for v in rest]
     if head == "int":
         return Rational(*(int(r) for r in rest))
+    if head == "dec":
+        return Float(rest[0], precision=rest[1])
     if head == "sym":
         name, *assumed = rest
         return (symbols or {}).get(name) or Symbol(name, **dict.fromkeys(assumed, True))
@@ -165,6 +176,8 @@ def decode(data: Any, symbols: dict[str, Symbol] | None = None) -> Any:
     if head not in HEADS:
         raise ValueError(f"{head} has no place in the table of heads")
     arguments = [decode(a, symbols) for a in rest]
+    if head == "Mul" and any(isinstance(a, Float) for a in arguments):
+        return sympy.Mul(*arguments, evaluate=False)  # a printed decimal is not multiplied out
     if head in ("Integral", "Sum"):
         return HEADS[head](arguments[0], *(Tuple(*a) for a in arguments[1:]))
     return HEADS[head](*arguments)

@@ -73,7 +73,7 @@ def statement(claim: Claim) -> str:
     from xsec_sym.record.entry import encoded
 
     sides = [encoded(e) or repr(e) for e in (claim.left, claim.printed, claim.corrected)]
-    stated = repr(claim.accuracy) if claim.accuracy else ""
+    stated = repr(claim.accuracy or claim.measure or "") if claim.accuracy or claim.measure else ""
     return json.dumps([claim.id, claim.kind, sides, claim.domain.text(), list(claim.parts), *([stated] * bool(stated))])
 
 
@@ -82,10 +82,12 @@ def engine() -> str:
     """The digest of everything that proves and defines, and of the libraries that it uses."""
     import flint
     import mpmath
+    import numpy
+    import scipy
     import sympy
 
     digest = hashlib.sha256()
-    for library in (sympy, mpmath, flint):
+    for library in (sympy, mpmath, flint, numpy, scipy):
         digest.update(f"{library.__name__} {library.__version__}\n".encode())
     root = Path(__file__).parent.parent
     for path in sorted(p for folder in ENGINE for p in (root / folder).rglob("*.py")):

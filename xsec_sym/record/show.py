@@ -27,6 +27,7 @@ MEANING = {
     "inconclusive": "neither shown nor refuted",
     "timeout": "stopped at its limit of time or memory",
 }
+MEASURED = "no symbolic proof and no enclosure, but two independent methods agree at every point tested"
 WIDTH = 100
 
 
@@ -62,7 +63,8 @@ def _head(entry: Entry) -> str:
     place = f"section {entry.section}" if entry.section else ""
     head = f"{entry.id}  {entry.title}" + (f"  ({entry.source}, {place})" if place else "")
     word = entry.verdict + (f" to {entry.digits} digits" if entry.verdict == "confirmed" and entry.digits else "")
-    return f"{head}\n{word}: {MEANING[entry.verdict]}"
+    solved = entry.verdict == "confirmed" and "digits agreed on" in entry.evidence
+    return f"{head}\n{word}: {MEASURED if solved else MEANING[entry.verdict]}"
 
 
 def _formula(entry: Entry, name: str) -> str:

@@ -1,0 +1,110 @@
+"""Sections 3.2-3.4: the modes of the BRDF in terms of H functions, and how the constants of a mode hang together.
+
+The left sides come from the transport equation in discrete directions, which knows no H function, and again from H and
+its moments (`xsec_sym/exact/solved.py`).
+"""
+
+from sympy import Rational, pi, sqrt, symbols
+
+from xsec_sym.exact.solved import HLambertSphere, ModeConstant, ModeLambertSphere
+from xsec_sym.proof import Source, interval
+from xsec_sym.proof.accuracy import T
+
+second = Source("deon2021", section="3.2")
+first = Source("deon2021", section="3.3")
+zeroth = Source("deon2021", section="3.4")
+project = Source("xsec", section="Lambertian spheres")
+
+mu_i, mu_o, c = symbols("mu_i mu_o c", real=True)
+OUTSIDE = [interval(mu_i, 0, 1, open="left"), interval(mu_o, 0, 1, open="left")]
+ALBEDO = interval(c, 0, 1)
+CROWDED = {mu_i: T**2, mu_o: T**2, c: 1 - T**2}
+THREE_TERMS = "for the three-term phase function of (5)"
+H = HLambertSphere
+
+
+# --- the modes ------------------------------------------------------------------------------------------
+
+l, m = (ModeConstant(1, index, c) for index in range(2))
+A, B, C, D, E, F = (ModeConstant(0, index, c) for index in range(6))
+product, total = mu_i * mu_o, mu_i + mu_o
+
+
+def of_order_one(factor):
+    """(27)."""
+    both = c * H(1, mu_i, c) * H(1, mu_o, c) / (factor * pi * total)
+    return both * sqrt((1 - mu_i**2) * (1 - mu_o**2)) * (1 + (l**2 + 45 * m / 64) * product + l * total)
+
+
+first.measured(
+    "27",
+    "the mode of order 1",
+    left=ModeLambertSphere(1, mu_i, mu_o, c),
+    printed=of_order_one(6),
+    corrected=of_order_one(3),
+    edit="3 for 6 in front of pi",
+    where=[*OUTSIDE, ALBEDO],
+    exact=True,
+    along=CROWDED,
+    reading="the coefficient of cos(phi) in (16), per steradian, phi = 0 sending light back; H of order 1, l and m "
+    "from moments of H; with 6 it would be half of the mode that (16) asks for, as in (34); " + THREE_TERMS,
+)
+
+zeroth.measured(
+    "36",
+    "the mode of order 0",
+    left=ModeLambertSphere(0, mu_i, mu_o, c),
+    printed=H(0, mu_i, c) * H(0, mu_o, c) / (2 * pi * total)
+    * (A + B * total + C * product + D * product * total + E * mu_i**2 * mu_o**2 + F * (mu_i**2 + mu_o**2)),
+    where=[*OUTSIDE, ALBEDO],
+    exact=True,
+    along=CROWDED,
+    reading="the mean over the azimuth, per steradian; H of order 0, and A to F from moments of H; " + THREE_TERMS,
+)  # fmt: skip
+
+MIRRORED = (
+    "the bracket of the mode at mu_o = -mu_i is the characteristic function, for order 1 up to a factor: what is "
+    "infinite there must cancel; this gives A and E of (38) as well; "
+)
+
+project.measured(
+    "lambert-sphere.relation-0",
+    "what C and F have to do with each other",
+    left=2 * F - C,
+    corrected=c * (20 * c**2 + 281 * c - 346) / 384,
+    where=[ALBEDO],
+    exact=True,
+    along={c: 1 - T**2},
+    reading=MIRRORED + THREE_TERMS,
+)
+project.measured(
+    "lambert-sphere.relation-1",
+    "what l and m have to do with each other",
+    left=l**2 + 45 * m / 64,
+    corrected=5 * (4 * c + 9) / 64,
+    where=[ALBEDO],
+    exact=True,
+    along={c: 1 - T**2},
+    reading=MIRRORED + THREE_TERMS,
+)
+
+# --- the mode of order 2 --------------------------------------------------------------------------------
+
+single = 15 * c * (1 - mu_i**2) * (1 - mu_o**2) / (256 * pi * total)
+
+second.measured(
+    "claim.second-order",
+    "of what is scattered more than once, the mode of order 2 is at most 0.5 percent of the BRDF's mode of order 0",
+    left=(ModeLambertSphere(2, mu_i, mu_o, c) - single) / ModeLambertSphere(0, mu_i, mu_o, c),
+    printed=0,
+    where=[*OUTSIDE, interval(c, 0, 1, open="left")],
+    within=Rational(1, 200),
+    along=CROWDED,
+    statement=True,
+    reading="the text says very weak, without a number; of what is scattered more than once it is at most 2.2 percent; "
+    + THREE_TERMS,
+)
+
+if __name__ == "__main__":
+    for section in (second, first, zeroth, project):
+        section.tell()
