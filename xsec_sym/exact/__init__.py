@@ -21,19 +21,6 @@ from xsec_sym.exact.normals import NormalsBeckmann, NormalsGGX, NormalsKagiwadaK
 from xsec_sym.exact.revolution import SpheroidFacets, SpheroidRadius, SpheroidRate, SpheroidSlope
 from xsec_sym.exact.ring import AZIMUTH, RingCrossSection, RingMean, RingSpread, RingTilt, facing
 from xsec_sym.exact.smith import BelowExponential, BelowGaussian, BelowLogistic, BelowUniform, ahead, behind
-
-__all__ = [
-    "AZIMUTH",
-    "BelowExponential",
-    "BelowGaussian",
-    "BelowLogistic",
-    "BelowUniform",
-    "CharacteristicTrial",
-    "DispersionTrial",
-    "HIsotropic",
-    "HMoment",
-    "HTransform",
-    "HTrial",
 from xsec_sym.exact.solved import (
     AlbedoLambertSphere,
     HLambertSphere,
@@ -46,15 +33,25 @@ from xsec_sym.exact.solved import (
 __all__ = [
     "AZIMUTH",
     "AlbedoLambertSphere",
+    "BelowExponential",
+    "BelowGaussian",
+    "BelowLogistic",
+    "BelowUniform",
+    "CharacteristicTrial",
+    "DispersionTrial",
+    "HIsotropic",
     "HLambertSphere",
+    "HMoment",
+    "HTransform",
+    "HTrial",
     "LobeGGX",
     "ModeConstant",
     "ModeLambertSphere",
     "NormalsBeckmann",
     "NormalsGGX",
     "NormalsKagiwadaKalaba",
-    "PhaseLambertSphere",
     "ParticleAlbedo",
+    "PhaseLambertSphere",
     "RingCrossSection",
     "RingMean",
     "RingSpread",
