@@ -4,6 +4,7 @@ from xsec_sym.kernels.beckmann import lambda_beckmann, ndf_beckmann, sigma_beckm
 from xsec_sym.kernels.dirac_ring import sigma_dirac_ring
 from xsec_sym.kernels.ellipsoidal import ndf_ellipsoidal, sigma_ellipsoidal
 from xsec_sym.kernels.ggx import lambda_ggx, ndf_ggx, sigma_ggx
+from xsec_sym.kernels.h_lambert_sphere import h_lambert_sphere
 from xsec_sym.kernels.half_space import HalfSpace
 from xsec_sym.kernels.isotropic import brdf_isotropic, h_isotropic
 from xsec_sym.kernels.lambert_sphere import (
@@ -36,6 +37,7 @@ __all__ = [
     "brdf_lambert_sphere",
     "cross_section",
     "h_isotropic",
+    "h_lambert_sphere",
     "lambda_beckmann",
     "lambda_ggx",
     "lambert_sphere_coefficients",
