@@ -15,6 +15,12 @@ from xsec_sym.kernels.lambert_sphere import (
     phase_lambert_sphere,
     sample_lambert_sphere,
 )
+from xsec_sym.kernels.lambert_sphere_models import (
+    brdf_lambert_sphere_fast_paper,
+    brdf_lambert_sphere_hapke,
+    brdf_lambert_sphere_paper,
+    brdf_lambert_sphere_printed,
+)
 from xsec_sym.kernels.lobes import sel, ssl
 from xsec_sym.kernels.power import sigma_power
 from xsec_sym.kernels.ring_lemma import CrossSection, cross_section
@@ -35,6 +41,10 @@ __all__ = [
     "albedo_lambert_sphere_inverse",
     "brdf_isotropic",
     "brdf_lambert_sphere",
+    "brdf_lambert_sphere_fast_paper",
+    "brdf_lambert_sphere_hapke",
+    "brdf_lambert_sphere_paper",
+    "brdf_lambert_sphere_printed",
     "cross_section",
     "h_isotropic",
     "h_lambert_sphere",
