@@ -144,9 +144,9 @@ def brdf_lambert_sphere_paper(
     Per steradian (1/sr). Exact single scattering, and what is multiply scattered by fits to the orders 0 and 1 of the
     three-term phase function. Symmetric in the cosines, to the last bit.
 
-    Found for cosines from 0.05 and all azimuths, against the rms of the exact BRDF: rms errors of 0.05 %, 0.21 %, 0.58 %
-    and 1.5 % for c = 0.1, 0.5, 0.9 and 1, and at most 7.3 % of a value. For c = 1, 97.9 % to 99.1 % of a beam returns,
-    97.9 % at normal incidence.
+    Found for cosines from 0.05 and all azimuths, against the rms of the exact BRDF: rms errors of 0.05 %, 0.21 %,
+    0.58 % and 1.5 % for c = 0.1, 0.5, 0.9 and 1, and at most 7.3 % of a value. For c = 1, 97.9 % to 99.1 % of a beam
+    returns, the least at normal incidence.
 
     mu_i, mu_o: cosines in [0, 1]; infinite where both are 0. phi: azimuth in radians between the two directions, both
     pointing outward: 0 is backscattering. c: diffuse albedo of the spheres in [0, 1]. Shapes broadcast; anything else,
@@ -168,8 +168,8 @@ def brdf_lambert_sphere_printed(
 ) -> np.ndarray | np.floating:
     """`brdf_lambert_sphere_paper` with every number as printed: no BRDF, but negative for most c.
 
-    Found as for `brdf_lambert_sphere_paper`: rms errors of 14, 2.2, 0.63 and 0.16 times the exact BRDF's rms for c = 0.1,
-    0.5, 0.9 and 1. A beam from the normal returns -1.6 of itself for c = 0.1 and 1.29 for c = 1.
+    Found as for `brdf_lambert_sphere_paper`: rms errors of 14, 2.2, 0.63 and 0.16 times the exact BRDF's rms for c =
+    0.1, 0.5, 0.9 and 1. A beam along the normal returns -1.6 of itself for c = 0.1 and 1.29 for c = 1.
 
     The arguments, the errors raised and the unit are those of `brdf_lambert_sphere_paper`.
 
@@ -190,8 +190,8 @@ def brdf_lambert_sphere_fast_paper(
     Per steradian (1/sr). Exact single scattering and a short formula for the rest, cut off at 0. Symmetric in the
     cosines.
 
-    Found as for `brdf_lambert_sphere_paper`: rms errors of 16 %, 2.0 %, 1.5 %, 5.8 % and 13 % for c = 0.1, 0.5, 0.9, 0.99
-    and 1. For c = 1, 103 % to 124 % of a beam returns, and up to 101 % for c = 0.99: no energy is conserved there.
+    Found as for `brdf_lambert_sphere_paper`: rms errors of 16 %, 2.0 %, 1.5 %, 5.8 % and 13 % for c = 0.1, 0.5, 0.9,
+    0.99 and 1. For c = 1, 103 % to 124 % of a beam returns, and for c = 0.99 up to 101 %.
 
     The arguments and the errors raised are those of `brdf_lambert_sphere_paper`. The formula's |phi| is taken between 0
     and pi, 0 for backscattering, which the paper leaves open: the other way round the rms error is 2.5 to 7 times as
