@@ -145,8 +145,8 @@ def brdf_lambert_sphere_paper(
     three-term phase function. Symmetric in the cosines, to the last bit.
 
     Found for cosines from 0.05 and all azimuths, against the rms of the exact BRDF: rms errors of 0.05 %, 0.21 %,
-    0.58 % and 1.5 % for c = 0.1, 0.5, 0.9 and 1, and at most 7.3 % of a value. For c = 1, 97.9 % to 99.1 % of a beam
-    returns, the least at normal incidence.
+    0.58 % and 1.5 % for c = 0.1, 0.5, 0.9 and 1, and at most 7.3 % of a value. Where both cosines are 0.001,
+    forward, it is two thirds too high. For c = 1, 97.9 % to 99.1 % of a beam returns, the least at normal incidence.
 
     mu_i, mu_o: cosines in [0, 1]; infinite where both are 0. phi: azimuth in radians between the two directions, both
     pointing outward: 0 is backscattering. c: diffuse albedo of the spheres in [0, 1]. Shapes broadcast; anything else,
