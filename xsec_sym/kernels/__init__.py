@@ -4,6 +4,7 @@ from xsec_sym.kernels.beckmann import lambda_beckmann, ndf_beckmann, sigma_beckm
 from xsec_sym.kernels.dirac_ring import sigma_dirac_ring
 from xsec_sym.kernels.ellipsoidal import ndf_ellipsoidal, sigma_ellipsoidal
 from xsec_sym.kernels.ggx import lambda_ggx, ndf_ggx, sigma_ggx
+from xsec_sym.kernels.h_lambert_sphere import h_lambert_sphere
 from xsec_sym.kernels.half_space import HalfSpace
 from xsec_sym.kernels.isotropic import brdf_isotropic, h_isotropic
 from xsec_sym.kernels.lambert_sphere import (
@@ -13,6 +14,12 @@ from xsec_sym.kernels.lambert_sphere import (
     lambert_sphere_coefficients,
     phase_lambert_sphere,
     sample_lambert_sphere,
+)
+from xsec_sym.kernels.lambert_sphere_models import (
+    brdf_lambert_sphere_fast_paper,
+    brdf_lambert_sphere_hapke,
+    brdf_lambert_sphere_paper,
+    brdf_lambert_sphere_printed,
 )
 from xsec_sym.kernels.lobes import sel, ssl
 from xsec_sym.kernels.power import sigma_power
@@ -34,8 +41,13 @@ __all__ = [
     "albedo_lambert_sphere_inverse",
     "brdf_isotropic",
     "brdf_lambert_sphere",
+    "brdf_lambert_sphere_fast_paper",
+    "brdf_lambert_sphere_hapke",
+    "brdf_lambert_sphere_paper",
+    "brdf_lambert_sphere_printed",
     "cross_section",
     "h_isotropic",
+    "h_lambert_sphere",
     "lambda_beckmann",
     "lambda_ggx",
     "lambert_sphere_coefficients",
