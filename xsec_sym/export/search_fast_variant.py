@@ -1,6 +1,6 @@
 """Look for a short formula of the light that spheres scatter more than once.
 
-`python -m xsec_sym.export.search_fast_variant [SEED]`, a few minutes; it needs the extra `search` (pyoperon, Operon's
+`python -m xsec_sym.export.search_fast_variant [SEED]`, some two minutes; it needs the extra `search` (pyoperon, Operon's
 symbolic regression) and writes nothing: it prints the formulas that no other found is both shorter and closer than.
 
 What `deon2021:48` got from TuringBot is sought here among the four operations only, and in quantities that the exact
@@ -8,7 +8,12 @@ single scattering beside it needs anyway or nearly so, all of them the same when
 
     P = mu_i + mu_o,   M = mu_i mu_o,   G = sqrt(1 - mu_i^2) sqrt(1 - mu_o^2) cos phi,   s = sqrt(1 - c),   c.
 
-`brdf_lambert_sphere_fast` is one of these formulas, put in order by hand, with the constants that `polished` gives it.
+`brdf_lambert_sphere_fast` follows the formula of length 29 that seed 1 finds,
+
+    a + (b s + c P + d + (e s + f M)/(s + g P)) (s + (h P + i) (j G + k) + l),
+
+put in order by hand: the factor 1 - s that nearly all of it vanishes by at c = 0 is taken out, the constants that this
+makes superfluous are left out, and `polished` chooses the others.
 """
 
 from __future__ import annotations
@@ -17,6 +22,7 @@ import sys
 from typing import Any
 
 import numpy as np
+from scipy.optimize import least_squares
 
 from xsec_sym.kernels.lambert_sphere import brdf_lambert_sphere, phase_lambert_sphere
 
@@ -84,7 +90,32 @@ def search(seed: int, length: int = 30, evaluations: int = 800_000, count: int =
     return front
 
 
+def form(k: np.ndarray, columns: np.ndarray) -> np.ndarray:
+    """The formula of `brdf_lambert_sphere_fast` for the columns of `features`, where it is not negative."""
+    p, m, g, s, _ = columns.T
+    bright = k[0] + k[1] * s + k[2] * p + (k[3] * s + k[4] * m) / (s + k[5] * p)
+    return (1.0 - s) * bright * (1.0 + k[6] * s + k[7] * p + (k[8] + k[9] * p) * g)
+
+
+def polished(seed: int, count: int = 4000, rounds: int = 6) -> np.ndarray:
+    """The constants of `form`, between least squares and least largest error: weights grow with the error."""
+    points, target = sample(seed, count)
+    columns = features(points)
+    k = np.array([0.2, 0.1, -0.05, 0.05, 0.1, 0.15, -0.5, -0.1, -0.1, 0.05])
+    weight, best, least = np.ones(count), k, np.inf
+    for _ in range(rounds):
+        k = least_squares(lambda k, w: (form(k, columns) - target) * w, k, x_scale="jac", args=(weight,)).x
+        error = abs(form(k, columns) - target)
+        measure = np.sqrt(np.mean(error**2)) + 0.3 * error.max()
+        if measure < least:
+            best, least = k, measure
+        weight = weight * np.sqrt(error / error.max() + 0.3)
+        weight /= weight.mean()
+    return best
+
+
 def main() -> None:
+    print("constants of brdf_lambert_sphere_fast:", ", ".join(f"{k:.5g}" for k in polished(11)))
     for length, error, formula in search(int(sys.argv[1]) if sys.argv[1:] else 1):
         print(f"{length:3d}  {error:.2e}  {formula}")
 

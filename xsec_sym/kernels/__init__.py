@@ -14,6 +14,13 @@ from xsec_sym.kernels.lambert_sphere import (
     phase_lambert_sphere,
     sample_lambert_sphere,
 )
+from xsec_sym.kernels.lambert_sphere_fits import (
+    albedo_lambert_sphere_fit,
+    albedo_lambert_sphere_inverse_fit,
+    brdf_lambert_sphere_fast,
+    brdf_lambert_sphere_fit,
+    h_lambert_sphere_fit,
+)
 from xsec_sym.kernels.lobes import sel, ssl
 from xsec_sym.kernels.power import sigma_power
 from xsec_sym.kernels.ring_lemma import CrossSection, cross_section
@@ -31,11 +38,16 @@ __all__ = [
     "CrossSection",
     "HalfSpace",
     "albedo_lambert_sphere",
+    "albedo_lambert_sphere_fit",
     "albedo_lambert_sphere_inverse",
+    "albedo_lambert_sphere_inverse_fit",
     "brdf_isotropic",
     "brdf_lambert_sphere",
+    "brdf_lambert_sphere_fast",
+    "brdf_lambert_sphere_fit",
     "cross_section",
     "h_isotropic",
+    "h_lambert_sphere_fit",
     "lambda_beckmann",
     "lambda_ggx",
     "lambert_sphere_coefficients",
