@@ -199,7 +199,7 @@ def tables(before: Callable[[dict[str, Table]], None]) -> dict[str, Table]:
     found: dict[str, Table] = {}
     for mode in range(3):
         found[f"H{mode}_UPPER"], found[f"H{mode}_LOWER"] = h_tables(mode)
-    found |= constant_tables() | albedo_tables() | {"POLISH": [[0.0]]}
+    found |= constant_tables() | albedo_tables() | {"POLISH": [[0.0, 0.0]]}
     before(found)
     return found | {"POLISH": polish()}
 

@@ -41,7 +41,7 @@ def sample(seed: int, count: int) -> tuple[np.ndarray, np.ndarray]:
     phi, c = rng.uniform(0.0, np.pi, count), albedos[np.arange(count) % ALBEDOS]
     sines = np.sqrt((1.0 - mu[0] ** 2) * (1.0 - mu[1] ** 2))
     single = c * phase_lambert_sphere(-(mu[0] * mu[1] + sines * np.cos(phi))) / (mu[0] + mu[1])
-    return np.stack([*mu, phi, c], axis=1), np.asarray(brdf_lambert_sphere(*mu, phi, c)) - single
+    return np.stack([*mu, phi, c], axis=1), np.asarray(brdf_lambert_sphere(mu[0], mu[1], phi, c)) - single
 
 
 def features(points: np.ndarray) -> np.ndarray:

@@ -1,19 +1,25 @@
 """Short formulas for the half-space of Lambertian spheres, closer than those of `deon2021` at no greater cost."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from xsec_sym.kernels import _lambert_sphere_fits_tables as tables
-from xsec_sym.kernels._support import elementwise, horner
+from xsec_sym.kernels._support import elementwise
 
 
-def _at(row: list[float], x: np.ndarray) -> np.ndarray:
-    return horner(row[::-1], x)
+def _sum(rows: Sequence[np.ndarray | float], x: np.ndarray) -> np.ndarray:
+    """The polynomial in x with these coefficients, lowest power first and at least two: numbers, or arrays like x."""
+    total = rows[-1] * x
+    total += rows[-2]
+    for row in rows[-3::-1]:
+        total *= x
+        total += row
+    return total
 
 
-def _rows(table: list[list[float]], x: np.ndarray) -> list[np.ndarray]:
-    return [_at(row, x) for row in table]
+def _rows(table: list[list[float]], x: np.ndarray) -> list[np.ndarray | float]:
+    return [_sum(row, x) if len(row) > 1 else row[0] for row in table]
 
 
 class _Excess:
@@ -22,18 +28,11 @@ class _Excess:
     def __init__(self, mode: int, c: np.ndarray, s: np.ndarray):
         variable = s if mode == 0 else c
         self.upper = _rows(getattr(tables, f"H{mode}_UPPER"), variable)
-        self.lower = [np.ones_like(c), *_rows(getattr(tables, f"H{mode}_LOWER"), variable)]
+        self.lower: list[np.ndarray | float] = [1.0, *_rows(getattr(tables, f"H{mode}_LOWER"), variable)]
         self.c = c
 
     def __call__(self, mu: np.ndarray, root: np.ndarray) -> np.ndarray:
         return self.c * mu * _sum(self.upper, root) / _sum(self.lower, root)
-
-
-def _sum(rows: list[np.ndarray], x: np.ndarray) -> np.ndarray:
-    total = rows[-1]
-    for row in rows[-2::-1]:
-        total = total * x + row
-    return total
 
 
 def _h(mu: np.ndarray, c: np.ndarray, mode: np.ndarray) -> np.ndarray:
@@ -79,8 +78,8 @@ def _multiple(mu_i: np.ndarray, mu_o: np.ndarray, cos_phi: np.ndarray, sines: np
         return x + y + x * y
 
     a = (69.0 / 128.0) * c
-    b = c * _at(tables.B[0], s)
-    d, f = c * s * _at(tables.D[0], s), c * s * _at(tables.F[0], s)
+    b = c * _sum(tables.B[0], s)
+    d, f = c * s * _sum(tables.D[0], s), c * s * _sum(tables.F[0], s)
     c_ = 2.0 * f - c * ((20.0 * c + 281.0) * c - 346.0) / 384.0
     e = (15.0 / 128.0) * (1.0 - c) * c * ((4.0 / 3.0) * c + 3.0)
     # c_ mu_i mu_o + f (mu_i^2 + mu_o^2), and what single scattering has of either
@@ -89,12 +88,12 @@ def _multiple(mu_i: np.ndarray, mu_o: np.ndarray, cos_phi: np.ndarray, sines: np
     lone = c * ((45.0 / 384.0) * total * total - product * ((256.0 + 90.0) / 384.0 + (135.0 / 384.0) * product))
     zeroth = (excess(0) * (a + once + mixed) + once + mixed + lone) / (2.0 * np.pi)
 
-    l = c * _at(tables.L[0], s)
+    l = c * _sum(tables.L[0], s)
     slope = (5.0 / 64.0) * (4.0 * c + 9.0)
     first = excess(1) * (1.0 + slope * product + l * total) + (5.0 / 16.0) * c * product + l * total
     second = (15.0 / 256.0) * sines * (2.0 * cos_phi * cos_phi - 1.0) * excess(2)
     both = zeroth + (c / np.pi) * sines * (cos_phi * first / 3.0 + second)
-    return both / total + c * c * c * (_at(tables.POLISH[0], roots[0]) + _at(tables.POLISH[0], roots[1]))
+    return both / total + c * c * c * (_sum(tables.POLISH[0], roots[0]) + _sum(tables.POLISH[0], roots[1]))
 
 
 def _with_single(
@@ -187,7 +186,7 @@ def _albedo(c: np.ndarray) -> np.ndarray:
     s = np.sqrt(1.0 - c)
     up, down = tables.ALBEDO
     # 1 - s without its cancellation for small c
-    value = c / (1.0 + s) * _at(up, s) / _at(down, s)
+    value = c / (1.0 + s) * _sum(up, s) / _sum(down, s)
     value[~((c >= 0.0) & (c <= 1.0))] = np.nan
     return value
 
@@ -210,7 +209,7 @@ def albedo_lambert_sphere_fit(c: np.typing.ArrayLike) -> np.ndarray | np.floatin
 def _inverse(k_d: np.ndarray) -> np.ndarray:
     r = 1.0 - k_d
     up, down = tables.INVERSE
-    part = k_d * _at(up, r) / _at(down, r)
+    part = k_d * _sum(up, r) / _sum(down, r)
     # 1 - s^2 for s = 1 - part
     value = part * (2.0 - part)
     value[~((k_d >= 0.0) & (k_d <= 1.0))] = np.nan
