@@ -31,11 +31,12 @@ bench: $(READY)
 notebooks: $(READY)
 	$(BIN)/python -m pytest tests/test_notebooks.py
 
-# Writes the generated kernels anew from the recorded verdicts, and the tables of H; tests compare them with what is
-# committed.
+# Writes the generated kernels anew from the recorded verdicts, and the tables of H and of the spherical Gaussian; tests
+# compare them with what is committed.
 generate: $(READY)
 	$(BIN)/python -m xsec_sym.export
 	$(BIN)/python -m xsec_sym.export.isotropic
+	$(BIN)/python -m xsec_sym.export.spherical_gaussian
 
 clean:
 	rm -rf .venv build *.egg-info

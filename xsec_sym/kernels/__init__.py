@@ -9,7 +9,12 @@ from xsec_sym.kernels.lobes import sel, ssl
 from xsec_sym.kernels.power import sigma_power
 from xsec_sym.kernels.ring_lemma import CrossSection, cross_section
 from xsec_sym.kernels.smith import smith_g1, smith_g2, smith_g2_given_g1
-from xsec_sym.kernels.spherical_gaussian import ndf_spherical_gaussian, sigma_spherical_gaussian
+from xsec_sym.kernels.spherical_gaussian import (
+    log_sigma_spherical_gaussian,
+    ndf_spherical_gaussian,
+    scaled_sigma_spherical_gaussian,
+    sigma_spherical_gaussian,
+)
 from xsec_sym.kernels.table1 import sigma_inv1m, sigma_inv1m2, sigma_inv1p, sigma_inv1pu2
 
 __all__ = [
@@ -19,10 +24,12 @@ __all__ = [
     "h_isotropic",
     "lambda_beckmann",
     "lambda_ggx",
+    "log_sigma_spherical_gaussian",
     "ndf_beckmann",
     "ndf_ellipsoidal",
     "ndf_ggx",
     "ndf_spherical_gaussian",
+    "scaled_sigma_spherical_gaussian",
     "sel",
     "sigma_beckmann",
     "sigma_dirac_ring",

@@ -8,6 +8,8 @@ import numpy as np
 
 # A block of doubles is 128 KiB: a few temporaries of a kernel stay in a second-level cache, and calls cost little.
 BLOCK = 16384
+# NumPy copies what it broadcasts along rows shorter than its buffer, which costs more than the arithmetic.
+BUFFER = 512
 
 
 def real_array(name: str, value: np.typing.ArrayLike) -> np.ndarray:
@@ -42,7 +44,10 @@ def result_dtype(arguments: dict[str, np.typing.ArrayLike], orders: Collection[s
 
 
 def elementwise(
-    core: Callable[..., np.ndarray], orders: Collection[str] = (), **arguments: np.typing.ArrayLike
+    core: Callable[..., np.ndarray],
+    orders: Collection[str] = (),
+    block: int = BLOCK,
+    **arguments: np.typing.ArrayLike,
 ) -> np.ndarray | np.floating:
     """Broadcast the named arguments, run `core` on blocks of float64 vectors, and return its values in their shape.
 
@@ -67,13 +72,14 @@ def elementwise(
         op_flags=access,
         op_dtypes=(np.float64,) * (len(arrays) + 1),
         casting="same_kind",
-        buffersize=BLOCK,
+        buffersize=block,
     )
     with np.errstate(all="ignore"), blocks:
+        np.setbufsize(BUFFER)
         for *vectors, out in blocks:
             # Without a cast the buffer is skipped, and a block may then be the whole array.
-            for start in range(0, out.size, BLOCK):
-                part = slice(start, start + BLOCK)
+            for start in range(0, out.size, block):
+                part = slice(start, start + block)
                 out[part] = core(*(vector[part] for vector in vectors))
     return result[()]
 
@@ -81,6 +87,12 @@ def elementwise(
 def horner(coefficients: Collection[float], x: np.ndarray) -> np.ndarray:
     """The polynomial with these coefficients, highest power first."""
     first, *rest = coefficients
+    if x.size == 1:
+        # The same products and sums, without a call for each.
+        one, sum_ = x.item(), first
+        for coefficient in rest:
+            sum_ = sum_ * one + coefficient
+        return np.full_like(x, sum_)
     total = np.full_like(x, first)
     for coefficient in rest:
         total *= x
