@@ -114,6 +114,9 @@ def spherical_gaussian_rows() -> list[Row]:
         "the same, alpha in (0.1, 1)": lambda: kernels.sigma_spherical_gaussian(u, usual),
         "the same, alpha in (0.1, 1), fast": lambda: kernels.sigma_spherical_gaussian(u, usual, "fast"),
     }
+    for tol in (5e-16, None, 1e-7):
+        sigma = kernels.specialize_spherical_gaussian(0.3, tol)
+        runs[f"specialize_spherical_gaussian(0.3, {tol})"] = lambda sigma=sigma: sigma(u)
     times: dict[str, list[float]] = {name: [] for name in runs}
     for turn in range(REPEATS + 1):
         for name, run in runs.items():

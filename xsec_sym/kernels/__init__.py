@@ -15,10 +15,12 @@ from xsec_sym.kernels.spherical_gaussian import (
     scaled_sigma_spherical_gaussian,
     sigma_spherical_gaussian,
 )
+from xsec_sym.kernels.spherical_gaussian_fixed import FixedSphericalGaussian, specialize_spherical_gaussian
 from xsec_sym.kernels.table1 import sigma_inv1m, sigma_inv1m2, sigma_inv1p, sigma_inv1pu2
 
 __all__ = [
     "CrossSection",
+    "FixedSphericalGaussian",
     "brdf_isotropic",
     "cross_section",
     "h_isotropic",
@@ -44,5 +46,6 @@ __all__ = [
     "smith_g1",
     "smith_g2",
     "smith_g2_given_g1",
+    "specialize_spherical_gaussian",
     "ssl",
 ]
