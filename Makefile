@@ -35,11 +35,12 @@ walk: $(READY)
 notebooks: $(READY)
 	$(BIN)/python -m pytest tests/test_notebooks.py
 
-# Writes the generated kernels anew from the recorded verdicts, and the tables of H and of the fits; tests compare them with what is
-# committed.
+# Writes the generated kernels anew from the recorded verdicts, and the tables of H, of the spherical Gaussian and of the
+# fits; tests compare them with what is committed.
 generate: $(READY)
 	$(BIN)/python -m xsec_sym.export
 	$(BIN)/python -m xsec_sym.export.isotropic
+	$(BIN)/python -m xsec_sym.export.spherical_gaussian
 	$(BIN)/python -m xsec_sym.export.lambert_sphere_fits
 
 clean:

@@ -73,20 +73,66 @@ def lobe_rows() -> list[Row]:
     exp, copy = median_seconds(lambda: np.exp(u)), median_seconds(u.copy)
     rows = [(name, f"{1e9 * seconds / VALUES:.2f} ns/value", "") for name, seconds in (("np.exp", exp), ("copy", copy))]
     names = [f"{quantity}_{name}" for name in ("beckmann", "ggx") for quantity in ("sigma", "lambda", "ndf")]
-    names += ["sigma_ellipsoidal", "ndf_ellipsoidal", "ndf_spherical_gaussian", "sigma_spherical_gaussian"]
+    names += ["sigma_ellipsoidal", "ndf_ellipsoidal", "ndf_spherical_gaussian"]
     for name in names:
         kernel: Callable[..., object] = getattr(kernels, name)
-        n, repeats = (VALUES // 50, 3) if kernel is kernels.sigma_spherical_gaussian else (VALUES, REPEATS)
-        cosine = (np.abs(u) if name.startswith("lambda") else u)[:n]
+        cosine = np.abs(u) if name.startswith("lambda") else u
         arguments = {
-            "": (cosine, shape[:n]),
+            "": (cosine, shape),
             ", one roughness": (cosine, 0.3),
-            ", float32": (cosine.astype(np.float32), shape[:n].astype(np.float32)),
+            ", float32": (cosine.astype(np.float32), shape.astype(np.float32)),
         }
         for remark, pair in arguments.items():
-            seconds = median_seconds(lambda kernel=kernel, pair=pair: kernel(*pair), repeats) / n * VALUES
+            seconds = median_seconds(lambda kernel=kernel, pair=pair: kernel(*pair))
             ratios = f"{seconds / exp:.1f} x np.exp, {seconds / copy:.1f} x copy"
             rows.append((name + remark, f"{1e9 * seconds / VALUES:.2f} ns/value", ratios))
+    return rows
+
+
+def spherical_gaussian_rows() -> list[Row]:
+    """Its cross-section: roughnesses of [1e-4, 1e4] by their logarithm, of (0.1, 1), and few values.
+
+    Each figure is the median of ratios to scipy.special.i0e, timed in turn with it, times the median of that.
+    """
+    from scipy import special
+
+    from xsec_sym import kernels
+
+    rng = np.random.default_rng(6)
+    u, alpha, usual = rng.uniform(-1, 1, VALUES), 10 ** rng.uniform(-4, 4, VALUES), rng.uniform(0.1, 1, VALUES)
+    single = u.astype(np.float32), alpha.astype(np.float32)
+    runs: dict[str, Callable[[], object]] = {
+        "copy": u.copy,
+        "np.exp": lambda: np.exp(u),
+        "special.erf": lambda: special.erf(u),
+        "special.i0e": lambda: special.i0e(u),
+        "sigma_spherical_gaussian": lambda: kernels.sigma_spherical_gaussian(u, alpha),
+        "log_sigma_spherical_gaussian": lambda: kernels.log_sigma_spherical_gaussian(u, alpha),
+        "scaled_sigma_spherical_gaussian": lambda: kernels.scaled_sigma_spherical_gaussian(u, alpha),
+        "sigma_spherical_gaussian, fast": lambda: kernels.sigma_spherical_gaussian(u, alpha, "fast"),
+        "sigma_spherical_gaussian, float32": lambda: kernels.sigma_spherical_gaussian(*single),
+        "the same, alpha in (0.1, 1)": lambda: kernels.sigma_spherical_gaussian(u, usual),
+        "the same, alpha in (0.1, 1), fast": lambda: kernels.sigma_spherical_gaussian(u, usual, "fast"),
+    }
+    for tol in (5e-16, None, 1e-7):
+        sigma = kernels.specialize_spherical_gaussian(0.3, tol)
+        runs[f"specialize_spherical_gaussian(0.3, {tol})"] = lambda sigma=sigma: sigma(u)
+    times: dict[str, list[float]] = {name: [] for name in runs}
+    for turn in range(REPEATS + 1):
+        for name, run in runs.items():
+            start = time.perf_counter()
+            run()
+            if turn:
+                times[name].append(time.perf_counter() - start)
+    rows = []
+    for name, seconds in times.items():
+        ratio = statistics.median(a / b for a, b in zip(seconds, times["special.i0e"], strict=True))
+        figure = 1e9 * statistics.median(seconds) / VALUES
+        rows.append((name, f"{figure:.2f} ns/value", f"{ratio:.2f} x special.i0e"))
+    for n in (1, 1000):
+        few = (-0.3, 0.3) if n == 1 else (u[:n], alpha[:n])
+        seconds = median_seconds(lambda few=few: kernels.sigma_spherical_gaussian(*few), 200)
+        rows.append((f"sigma_spherical_gaussian, {n} values a call", f"{1e6 * seconds:.0f} us/call", ""))
     return rows
 
 
@@ -173,6 +219,7 @@ SECTIONS: list[Callable[[], list[Row]]] = [
     import_rows,
     kernel_rows,
     lobe_rows,
+    spherical_gaussian_rows,
     half_space_rows,
     vector_rows,
     cross_section_rows,

@@ -1,59 +1,198 @@
+"""The cross-section of the spherical Gaussian against the definition and the series.
+
+`python -m tests.kernels.test_spherical_gaussian SEED` is the deep run: some 20 000 fresh points.
+"""
+
+import sys
+
 import numpy as np
 import pytest
 from mpmath import mp, mpf
 
-from tests.kernels import lobes
-from xsec_sym.kernels import _pairs, ndf_spherical_gaussian, sigma_spherical_gaussian, spherical_gaussian
+from tests.kernels import gaussian, lobes
+from xsec_sym.kernels import (
+    _pairs,
+    _spherical_gaussian_core,
+    log_sigma_spherical_gaussian,
+    ndf_spherical_gaussian,
+    scaled_sigma_spherical_gaussian,
+    sigma_spherical_gaussian,
+)
+from xsec_sym.kernels import _spherical_gaussian_tables as tables
 
-RELATIVE = 3e-15
-
-
-def cosines_in_view(rng, alpha):
-    """Half of them anywhere, half where the dark side is a number: |u| < 26 alpha."""
-    u = rng.uniform(-1, 1, alpha.size)
-    return np.where(rng.random(alpha.size) < 0.5, u, u * np.minimum(26 * alpha, 1.0))
-
-
-def largest_error(u, alpha):
-    """Relative to the definition at 30 digits, where sigma > 1e-300."""
-    largest = 0.0
-    for value, *point in zip(sigma_spherical_gaussian(u, alpha), u, alpha, strict=True):
-        exact = lobes.sigma_spherical_gaussian(*point)
-        largest = max(largest, float(abs(mpf(float(value)) / exact - 1)) if exact > 1e-300 else 0.0)
-    return largest
-
-
-@pytest.mark.parametrize("seed", [1, 2])
-def test_accuracy(seed):
-    """Largest found among 1600 points: 1.2e-15."""
-    rng = np.random.default_rng(seed)
-    alpha = 10 ** rng.uniform(-4, 4, 60)
-    assert largest_error(cosines_in_view(rng, alpha), alpha) < RELATIVE
+EPS = np.finfo(float).eps
+# Half of what is promised of the kernel, 16 eps.
+RELATIVE = 8 * EPS
+# The least sigma whose digits are promised.
+LEAST = 1e-300
+FORMS = [
+    (sigma_spherical_gaussian, gaussian.sigma, LEAST),
+    (log_sigma_spherical_gaussian, gaussian.log_sigma, 0.0),
+    (scaled_sigma_spherical_gaussian, gaussian.scaled_sigma, 0.0),
+]
+named = pytest.mark.parametrize(("kernel", "reference", "least"), FORMS, ids=lambda part: getattr(part, "__name__", ""))
 
 
-@pytest.mark.parametrize("alpha", [1e-4, 0.0532, 0.3, 2.0, 1e4])
-def test_corners(alpha):
-    u = np.array([-1.0, -np.nextafter(1, 0), -0.5, -alpha, -1e-8, 0.0, 1e-8, alpha, 0.5, 1.0])
+def test_references_agree():
+    rng = np.random.default_rng(1)
+    u, alpha = gaussian.points(rng, 4)
+    with mp.workdps(40):
+        for point in zip(u, alpha, strict=True):
+            exact = lobes.sigma_spherical_gaussian(*point)
+            assert abs(gaussian.sigma(*point) / exact - 1) < mpf("1e-24"), point
+
+
+@named
+def test_accuracy(kernel, reference, least):
+    rng = np.random.default_rng(11)
+    u, alpha = gaussian.points(rng, 40)
+    error, where = gaussian.worst(kernel(u, alpha), reference, u, alpha, least)
+    assert error < RELATIVE, where
+
+
+@named
+@pytest.mark.parametrize("alpha", [1e-4, 0.0532, 0.3, 0.5, 1.15, 2.0, 1e4])
+def test_corners(kernel, reference, least, alpha):
+    u = np.array([-1.0, -np.nextafter(1, 0), -0.9, -0.5, -alpha, -1e-8, -5e-324, 0.0, 1e-8, alpha, 0.9, 1.0])
     u = u[np.abs(u) <= 1]
-    assert largest_error(u, np.full(u.size, alpha)) < RELATIVE
+    error, where = gaussian.worst(kernel(u, alpha), reference, u, np.full(u.size, alpha), least)
+    assert error < RELATIVE, where
+
+
+@named
+def test_fast(kernel, reference, least):
+    """A relative 1e-6 of sigma is promised, and an absolute one of its logarithm."""
+    rng = np.random.default_rng(12)
+    u, alpha = gaussian.points(rng, 40)
+    values = kernel(u, alpha, accuracy="fast")
+    if kernel is log_sigma_spherical_gaussian:
+        exact = np.array([float(reference(*point)) for point in zip(u, alpha, strict=True)])
+        error, where = np.abs(values - exact).max(), None
+    else:
+        error, where = gaussian.worst(values, reference, u, alpha, least)
+    assert error < 1e-7, where
+    assert not np.array_equal(values, kernel(u, alpha))
+
+
+def test_accuracy_is_named():
+    with pytest.raises(ValueError, match=r"'full' or 'fast', not 'best'"):
+        sigma_spherical_gaussian(0.5, 0.5, accuracy="best")
 
 
 def test_float32():
+    """Largest found among 5000 points: 0.8 ulp, while 8 are promised."""
     rng = np.random.default_rng(3)
-    alpha = (10 ** rng.uniform(-4, 4, 60)).astype(np.float32)
-    u = cosines_in_view(rng, alpha).astype(np.float32)
-    assert lobes.worst(sigma_spherical_gaussian, lobes.sigma_spherical_gaussian, u, alpha)[0] <= 1
+    u, alpha = (part.astype(np.float32) for part in gaussian.points(rng, 40))
+    values = sigma_spherical_gaussian(u, alpha)
+    assert values.dtype == np.float32
+    for value, *point in zip(values, u, alpha, strict=True):
+        exact = gaussian.sigma(*point)
+        if exact > 1e-36:
+            assert abs(mpf(float(value)) - exact) < 1.5 * np.spacing(np.float32(float(exact))), point
 
 
-def test_the_rule_is_rounded_once():
-    nodes, weights = spherical_gaussian._rule()
-    n = spherical_gaussian.NODES
-    with mp.workdps(50):
-        for node, weight in zip(nodes, weights, strict=True):
-            x = mp.findroot(lambda z: mp.legendre(n, z), mpf(2 * node - 1))
-            slope = n * (x * mp.legendre(n, x) - mp.legendre(n - 1, x)) / (x * x - 1)
-            assert abs(node / ((1 + x) / 2) - 1) < 2e-16
-            assert abs(weight * (1 - x * x) * slope**2 - 1) < 2e-16
+def test_the_odd_part_is_right_to_two_places():
+    rng = np.random.default_rng(14)
+    u, alpha = gaussian.points(rng, 400)
+    # Where sigma is little more than its odd part, whose rounding errors show.
+    u, alpha = np.append(u, rng.uniform(0.5, 1, 500)), np.append(alpha, rng.uniform(0.5, 2, 500))
+    facing, away = sigma_spherical_gaussian(np.abs(u), alpha), sigma_spherical_gaussian(-np.abs(u), alpha)
+    with mp.workdps(60):
+        for lit, dark, *point in zip(facing, away, np.abs(u), alpha, strict=True):
+            error = abs(mpf(float(lit)) - mpf(float(dark)) - gaussian.odd(*point))
+            assert error <= 2 * np.spacing(lit), point
+
+
+def test_sigma_rises():
+    """Down by no more than rounding from any cosine to any larger one, however close."""
+    rng = np.random.default_rng(15)
+    edges = np.array([0.25, 0.5, 0.75, tables.LIT, np.sqrt(1 - 0.49), 1.0])
+    steps = np.concatenate([1 + np.arange(-20, 21) * EPS, 1 + np.linspace(-1e-6, 1e-6, 41)])
+    for alpha in np.append(10 ** rng.uniform(-4, 4, 60), np.sqrt(2 / np.array(tables.ROUND_Y))):
+        layer = rng.uniform(-27, 7, 1000) * min(alpha, 0.037)
+        near = np.outer(edges, steps).ravel()
+        u = np.concatenate([rng.uniform(-1, 1, 1000), layer, near, -near])
+        u = np.unique(u[np.abs(u) <= 1])
+        sigma = sigma_spherical_gaussian(u, alpha)
+        highest = np.maximum.accumulate(sigma)
+        assert (sigma[1:] >= highest[:-1] * (1 - 16 * EPS)).all(), alpha
+
+
+def switches():
+    """Paths of 2e-4 across every border of a region or a cell: u, alpha."""
+    step = 1 + np.linspace(-1e-4, 1e-4, 16)
+    kappas = [*np.sqrt(tables.EVEN_Y[1:]), *tables.ROUND_Y, *(2 / np.array(tables.LAYER_Y[1:])), 1e8]
+    kappas.append(_spherical_gaussian_core.FAINT)
+    for kappa in kappas:
+        for u in (-0.95, -0.3, 1e-4, 0.7):
+            if kappa < 1e4 or abs(u) < 1e-3:
+                yield np.full(16, u), np.sqrt(2 / (kappa * step))
+    for v in (*tables.ROUND_X[1:-1], tables.LIT, np.sqrt(1 - (1 / tables.LAYER_X[1] - tables.SHIFT) ** 2)):
+        for alpha in (0.15, 0.3, 0.7):
+            yield -v * step, np.full(16, alpha)
+    for ks in (*tables.RIM_X[1:], *(1 / np.array(tables.EDGE_X[1:]))):
+        for kappa in (40.0, 300.0):
+            yield -np.sqrt(1 - (ks / kappa * step) ** 2), np.full(16, np.sqrt(2 / kappa))
+    for alpha in (1e-4, 0.01, 0.1):
+        yield np.sqrt(_spherical_gaussian_core.LIT_ENDS) * alpha * step, np.full(16, alpha)
+
+
+@pytest.mark.parametrize(("u", "alpha"), list(switches()))
+def test_value_and_slope_are_continuous_across_switches(u, alpha):
+    lobes.assert_joined(sigma_spherical_gaussian, gaussian.sigma, u, alpha)
+
+
+@named
+@pytest.mark.parametrize("accuracy", ["full", "fast"])
+def test_a_value_depends_on_its_arguments_alone(kernel, reference, least, accuracy):
+    """Not on its place, nor on the length of the array, nor on its neighbours."""
+    rng = np.random.default_rng(16)
+    u, alpha = gaussian.points(rng, 20_000)
+    whole = kernel(u, alpha, accuracy)
+    order = rng.permutation(u.size)
+    assert np.array_equal(kernel(u[order], alpha[order], accuracy), whole[order])
+    for n in (1000, 17, 1):
+        for start in rng.integers(0, u.size - n, 60 // n + 40):
+            part = slice(start, start + n)
+            assert np.array_equal(kernel(u[part], alpha[part], accuracy), whole[part])
+    for i in range(40):
+        assert kernel(u[i], alpha[i], accuracy) == whole[i]
+    assert np.array_equal(kernel(u[:9000], 0.3, accuracy)[:300], [kernel(one, 0.3, accuracy) for one in u[:300]])
+
+
+def test_limits():
+    u = np.array([-1.0, -0.3, -1e-300, 0.0, 1e-300, 0.3, 1.0])
+    assert np.array_equal(sigma_spherical_gaussian(u, 0), np.maximum(u, 0))
+    assert np.array_equal(scaled_sigma_spherical_gaussian(u, 0), np.maximum(u, 0))
+    with np.errstate(divide="ignore"):
+        assert np.allclose(log_sigma_spherical_gaussian(u, 0), np.log(np.maximum(u, 0)), rtol=EPS, atol=0)
+    for huge in (np.inf, 1e160, 1e300):
+        for kernel, limit in ((sigma_spherical_gaussian, 0.25), (log_sigma_spherical_gaussian, np.log(0.25))):
+            assert (kernel(u, huge) == limit).all()
+        assert (scaled_sigma_spherical_gaussian(u, huge) == 0.25).all()
+    for kernel, _, _ in FORMS:
+        bad = kernel([np.nan, 1.1, -np.inf, 0.5, 0.5, np.nan], [0.5, 0.5, 0.5, -0.5, np.nan, 0.0])
+        assert np.isnan(bad).all()
+        assert np.isnan(kernel(0.5, -1e-200))
+        assert kernel([], []).shape == (0,)
+
+
+def test_scaled_and_logarithm_outlive_sigma():
+    u, alpha = np.array([-1.0, -0.5, -0.01]), np.array([1e-4, 0.01, 1e-6])
+    assert (sigma_spherical_gaussian(u, alpha) == 0).all()
+    assert (scaled_sigma_spherical_gaussian(u, alpha) > 0).all()
+    assert np.isfinite(log_sigma_spherical_gaussian(u, alpha)).all()
+    assert scaled_sigma_spherical_gaussian(-0.5, 1e-50) > 0
+
+
+def test_tiny_roughness_is_the_flat_limit_scaled():
+    """sigma(u, alpha)/alpha depends on u/alpha alone."""
+    for scale in (1e-30, 1e-139, 1e-141, 1e-200, 1e-300):
+        u = np.array([-3.0, -1.0, -0.1, 0.0, 0.1, 1.0, 3.0])
+        for kernel in (sigma_spherical_gaussian, scaled_sigma_spherical_gaussian):
+            assert np.allclose(kernel(u * scale, scale) / scale, kernel(u * 1e-10, 1e-10) / 1e-10, rtol=1e-14, atol=0)
+        logs = log_sigma_spherical_gaussian(u * scale, scale) - np.log(scale)
+        assert np.allclose(logs, log_sigma_spherical_gaussian(u * 1e-10, 1e-10) + np.log(1e10), rtol=0, atol=1e-12)
 
 
 def density_samples(n, dtype=np.float64):
@@ -95,45 +234,14 @@ def test_density_is_continuous_across_switches(x, alpha):
     lobes.assert_joined(ndf_spherical_gaussian, lobes.ndf_spherical_gaussian, u, np.full(400, alpha))
 
 
-def assert_smooth(u, alpha):
-    """No kink and no jump in the relative error against the definition."""
-    ratio = np.array(
-        [
-            float(mpf(float(value)) / lobes.sigma_spherical_gaussian(*point) - 1)
-            for value, *point in zip(sigma_spherical_gaussian(u, alpha), u, alpha, strict=True)
-        ]
-    )
-    assert np.abs(ratio).max() < RELATIVE
-    assert abs(ratio[: len(ratio) // 2].mean() - ratio[len(ratio) // 2 :].mean()) < 1e-15
+def deep(seed):
+    rng = np.random.default_rng(seed)
+    u, alpha = gaussian.points(rng, 4000)
+    for kernel, reference, least in FORMS:
+        for accuracy in ("full", "fast"):
+            error, where = gaussian.worst(kernel(u, alpha, accuracy), reference, u, alpha, least)
+            print(f"{kernel.__name__:36}{accuracy:6}{error:10.2e} = {error / EPS:.2f} eps at {where}", flush=True)
 
 
-@pytest.mark.parametrize("u", [-0.9, 0.2])
-def test_value_and_slope_are_continuous_where_the_cut_is_dropped(u):
-    """Where the integrand has fallen by exp(-52) at the angle 1.2."""
-    v, s = abs(u), np.sqrt(1 - u * u)
-    kappa = spherical_gaussian.NEGLIGIBLE / (spherical_gaussian.WIDE * v + spherical_gaussian.WIDE**2 * s / 2)
-    alpha = np.sqrt(2 / kappa) * (1 + np.linspace(-1e-4, 1e-4, 12))
-    assert_smooth(np.full(12, u), alpha)
-
-
-def test_value_and_slope_are_continuous_where_the_mean_cosine_switches():
-    alpha = np.sqrt(2 / spherical_gaussian.SMALL_KAPPA) * (1 + np.linspace(-1e-4, 1e-4, 12))
-    assert_smooth(np.full(12, 0.8), alpha)
-    kappa = np.array([1e-300, 1e-8, 0.1, 1.0, np.nextafter(2, 0), 2.0, 3.0, 50.0, 1e10])
-    with mp.workdps(700):
-        exact = [mp.coth(mpf(float(k))) - 1 / mpf(float(k)) for k in kappa]
-    with np.errstate(over="ignore"):
-        values = spherical_gaussian.mean_cosine(kappa)
-    assert max(abs(float(mpf(float(v)) / e - 1)) for v, e in zip(values, exact, strict=True)) < 1e-15
-
-
-def test_tiny_roughness_is_the_flat_limit_scaled():
-    """Below alpha = 1e-30 and above, sigma(u, alpha)/alpha depends on u/alpha alone."""
-    for scale in (1e-31, 1e-200, 1e-29):
-        u = np.array([-3.0, -1.0, -0.1, 0.0, 0.1, 1.0, 3.0])
-        assert np.allclose(
-            sigma_spherical_gaussian(u * scale, scale) / scale,
-            sigma_spherical_gaussian(u * 1e-10, 1e-10) / 1e-10,
-            rtol=1e-14,
-            atol=0,
-        )
+if __name__ == "__main__":
+    deep(int(sys.argv[1]))

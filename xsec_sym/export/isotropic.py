@@ -19,6 +19,7 @@ from pathlib import Path
 from mpmath import mp, mpf
 
 import xsec_sym
+from xsec_sym.export.polynomials import Matrix, chebyshev_nodes, coefficients, polynomial, powers, shortened, written
 from xsec_sym.record.files import writing
 
 ROOT = Path(xsec_sym.__file__).parent
@@ -30,8 +31,6 @@ NODES = 28
 STEP, REACH = mpf(1) / 32, 138
 # What the terms left out of a polynomial may add up to, where log H is an absolute 1e-16 from right.
 LEFT_OUT = mpf("7e-17")
-
-Matrix = list[list[mpf]]
 
 
 def rule() -> list[tuple[mpf, mpf, mpf]]:
@@ -64,66 +63,6 @@ def angle(v: mpf, artanh: mpf, c: mpf) -> mpf:
     return mp.atan2(mp.pi * c * v / 2, 1 - c * v * artanh)
 
 
-def chebyshev_nodes() -> list[mpf]:
-    return [mp.cos(mp.pi * (2 * j + 1) / (2 * NODES)) for j in range(NODES)]
-
-
-def coefficients(values: list[mpf]) -> list[mpf]:
-    """Of the Chebyshev polynomials, for the interpolant of these values at the nodes."""
-    cosines = [mp.cos(mp.pi * j / (2 * NODES)) for j in range(4 * NODES)]
-    return [
-        mp.fdot((cosines[i * (2 * j + 1) % (4 * NODES)], value) for j, value in enumerate(values))
-        * (1 if i == 0 else 2)
-        / NODES
-        for i in range(NODES)
-    ]
-
-
-def powers(series: list[mpf]) -> list[mpf]:
-    """A sum of Chebyshev polynomials as one of powers, lowest first."""
-    before, now = [mpf(1)], [mpf(0), mpf(1)]
-    total = [mpf(0)] * len(series)
-    for coefficient in series:
-        for i, part in enumerate(before):
-            total[i] += coefficient * part
-        after = [mpf(0)] + [2 * part for part in now]
-        for i, part in enumerate(before):
-            after[i] -= part
-        before, now = now, after
-    return total
-
-
-def shortened(table: Matrix, left_out: mpf) -> Matrix:
-    """`table` with its smallest entries set to 0, of the sum `left_out` at most."""
-    entries = sorted((abs(entry), i, j) for i, row in enumerate(table) for j, entry in enumerate(row))
-    short, total = [list(row) for row in table], mpf(0)
-    for size, i, j in entries:
-        total += size
-        if total > left_out:
-            break
-        short[i][j] = mpf(0)
-    return short
-
-
-def transposed(table: Matrix) -> Matrix:
-    return [list(column) for column in zip(*table, strict=True)]
-
-
-def polynomial(values: Matrix, left_out: mpf) -> list[list[float]]:
-    """values[i][j] at the i-th node of c and the j-th of mu: rows by the power of mu, none longer than that before."""
-    series = transposed([coefficients(column) for column in transposed([coefficients(row) for row in values])])
-    short = shortened(series, left_out)
-    # What is 0 among the series, toward the highest powers, is 0 among the powers.
-    rows = [powers(row) for row in transposed([powers(row) for row in short])]
-    table: list[list[float]] = []
-    for row in reversed(rows):
-        used = max((i + 1 for i, entry in enumerate(row) if entry), default=0)
-        length = max(used, len(table[0]) if table else 0)
-        if length:
-            table.insert(0, [float(entry) for entry in row[:length]])
-    return table
-
-
 def shift() -> mpf:
     """Puts the two ends of the cut, mu = -1 and mu = 0, at opposite values of the variable of the far tables."""
     near = mpf(NEAR)
@@ -132,7 +71,7 @@ def shift() -> mpf:
 
 def tables() -> dict[str, list[list[float]]]:
     """The wavenumber k/sqrt(1 - c) for c above PALE, and the four tables of the integral."""
-    x = chebyshev_nodes()
+    x = chebyshev_nodes(NODES)
     near, pale, d = mpf(NEAR), mpf(PALE), mpf(float(shift()))
     mus = {
         "NEAR": [near * (1 + node) / 2 for node in x],
@@ -172,12 +111,6 @@ def tables() -> dict[str, list[list[float]]]:
     while not ratio[-1]:
         ratio.pop()
     return {"WAVENUMBER": [[float(entry) for entry in powers(ratio)]], **found}
-
-
-def written(row: list[float]) -> str:
-    """The numbers of a row, indented, in lines of four."""
-    lines = [", ".join(map(repr, row[i : i + 4])) for i in range(0, len(row), 4)]
-    return "".join(f"        {line},\n" for line in lines)
 
 
 def module() -> str:

@@ -32,7 +32,13 @@ from xsec_sym.kernels.lobes import sel, ssl
 from xsec_sym.kernels.power import sigma_power
 from xsec_sym.kernels.ring_lemma import CrossSection, cross_section
 from xsec_sym.kernels.smith import smith_g1, smith_g2, smith_g2_given_g1
-from xsec_sym.kernels.spherical_gaussian import ndf_spherical_gaussian, sigma_spherical_gaussian
+from xsec_sym.kernels.spherical_gaussian import (
+    log_sigma_spherical_gaussian,
+    ndf_spherical_gaussian,
+    scaled_sigma_spherical_gaussian,
+    sigma_spherical_gaussian,
+)
+from xsec_sym.kernels.spherical_gaussian_fixed import FixedSphericalGaussian, specialize_spherical_gaussian
 from xsec_sym.kernels.table1 import sigma_inv1m, sigma_inv1m2, sigma_inv1p, sigma_inv1pu2
 from xsec_sym.kernels.visible_normals import (
     sample_visible_ggx,
@@ -43,6 +49,7 @@ from xsec_sym.kernels.visible_normals import (
 
 __all__ = [
     "CrossSection",
+    "FixedSphericalGaussian",
     "HalfSpace",
     "albedo_lambert_sphere",
     "albedo_lambert_sphere_fit",
@@ -63,6 +70,7 @@ __all__ = [
     "lambda_beckmann",
     "lambda_ggx",
     "lambert_sphere_coefficients",
+    "log_sigma_spherical_gaussian",
     "ndf_beckmann",
     "ndf_ellipsoidal",
     "ndf_ggx",
@@ -71,6 +79,7 @@ __all__ = [
     "sample_lambert_sphere",
     "sample_visible_ggx",
     "sample_visible_spherical_gaussian",
+    "scaled_sigma_spherical_gaussian",
     "sel",
     "sigma_beckmann",
     "sigma_dirac_ring",
@@ -85,6 +94,7 @@ __all__ = [
     "smith_g1",
     "smith_g2",
     "smith_g2_given_g1",
+    "specialize_spherical_gaussian",
     "ssl",
     "visible_ggx",
     "visible_spherical_gaussian",

@@ -27,7 +27,7 @@ def square(high: np.ndarray, low: np.ndarray) -> Pair:
     return total, error + 2.0 * high * low
 
 
-def quotient(n: np.ndarray, n_low: np.ndarray | float, d: np.ndarray, d_low: np.ndarray | float) -> Pair:
+def quotient(n: np.ndarray | float, n_low: np.ndarray | float, d: np.ndarray, d_low: np.ndarray | float) -> Pair:
     """(n + n_low)/(d + d_low), to a relative error of a few eps^2."""
     high = n / d
     product, error = two_prod(high, d)

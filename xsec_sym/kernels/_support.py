@@ -8,6 +8,8 @@ import numpy as np
 
 # A block of doubles is 128 KiB: a few temporaries of a kernel stay in a second-level cache, and calls cost little.
 BLOCK = 16384
+# NumPy copies what it broadcasts along rows shorter than its buffer, which costs more than the arithmetic.
+BUFFER = 512
 
 
 def real_array(name: str, value: np.typing.ArrayLike) -> np.ndarray:
@@ -42,7 +44,10 @@ def result_dtype(arguments: dict[str, np.typing.ArrayLike], orders: Collection[s
 
 
 def elementwise(
-    core: Callable[..., np.ndarray], orders: Collection[str] = (), **arguments: np.typing.ArrayLike
+    core: Callable[..., np.ndarray],
+    orders: Collection[str] = (),
+    block: int = BLOCK,
+    **arguments: np.typing.ArrayLike,
 ) -> np.ndarray | np.floating:
     """Broadcast the named arguments, run `core` on blocks of float64 vectors, and return its values in their shape.
 
@@ -52,13 +57,14 @@ def elementwise(
     >>> elementwise(lambda x, y: x + y, x=1, y=[2, 3.5])
     array([3. , 4.5])
     """
-    return elementwise_tuple(lambda *vectors: (core(*vectors),), 1, orders, **arguments)[0]
+    return elementwise_tuple(lambda *vectors: (core(*vectors),), 1, orders, block, **arguments)[0]
 
 
 def elementwise_tuple(
     core: Callable[..., tuple[np.ndarray, ...]],
     outputs: int,
     orders: Collection[str] = (),
+    block: int = BLOCK,
     **arguments: np.typing.ArrayLike,
 ) -> tuple[np.ndarray | np.floating, ...]:
     """As `elementwise`, for a `core` that returns so many vectors at once.
@@ -77,14 +83,15 @@ def elementwise_tuple(
         op_flags=access,
         op_dtypes=(np.float64,) * (len(arrays) + outputs),
         casting="same_kind",
-        buffersize=BLOCK,
+        buffersize=block,
     )
     with np.errstate(all="ignore"), blocks:
-        for block in blocks:
-            vectors, outs = block[: len(arrays)], block[len(arrays) :]
+        np.setbufsize(BUFFER)
+        for parts in blocks:
+            vectors, outs = parts[: len(arrays)], parts[len(arrays) :]
             # Without a cast the buffer is skipped, and a block may then be the whole array.
-            for start in range(0, outs[0].size, BLOCK):
-                part = slice(start, start + BLOCK)
+            for start in range(0, outs[0].size, block):
+                part = slice(start, start + block)
                 for out, value in zip(outs, core(*(vector[part] for vector in vectors)), strict=True):
                     out[part] = value
     return tuple(result[()] for result in results)
@@ -102,6 +109,12 @@ def common_shape(arrays: dict[str, np.ndarray]) -> tuple[int, ...]:
 def horner(coefficients: Collection[float], x: np.ndarray) -> np.ndarray:
     """The polynomial with these coefficients, highest power first."""
     first, *rest = coefficients
+    if x.size == 1:
+        # The same products and sums, without a call for each.
+        one, sum_ = x.item(), first
+        for coefficient in rest:
+            sum_ = sum_ * one + coefficient
+        return np.full_like(x, sum_)
     total = np.full_like(x, first)
     for coefficient in rest:
         total *= x

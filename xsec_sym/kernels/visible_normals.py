@@ -6,7 +6,7 @@ import numpy as np
 
 from xsec_sym.kernels._support import common_shape, elementwise, elementwise_tuple, real_array, result_dtype
 from xsec_sym.kernels.ggx import _ndf, _sigma
-from xsec_sym.kernels.spherical_gaussian import dark_shape, mean_cosine
+from xsec_sym.kernels.spherical_gaussian import scaled_sigma_spherical_gaussian
 
 # A normal whose squared length is further from 1 than singles allow is not a direction.
 UNIT = 1e-6
@@ -45,11 +45,10 @@ def _visible_gaussian(x: np.ndarray, y: np.ndarray, z: np.ndarray, u: np.ndarray
     kappa = 2.0 / alpha / alpha
     s = np.sqrt((1.0 - u) * (1.0 + u))
     # The factor exp(-kappa (1 - s)) of both the distribution and the cross-section cancels before it underflows.
-    shape = dark_shape(np.minimum(np.abs(u), 1.0), kappa)
-    lit = u > 0.0
+    area = np.asarray(scaled_sigma_spherical_gaussian(u, alpha))
+    area = np.where((np.abs(u) <= 1.0) & (alpha >= SMALLEST), area, np.nan)
     # No visible normal is higher than top; 1 - s = u^2/(1 + s).
-    area = np.where(lit, np.exp(-kappa * u * u / (1.0 + s)) * shape + mean_cosine(kappa) * u, shape)
-    area[~((np.abs(u) <= 1.0) & (alpha >= SMALLEST))] = np.nan
+    lit = u >= 0.0
     top = np.where(lit, 1.0, s)
     scale = -kappa / np.expm1(-2.0 * kappa) / (2.0 * np.pi)
     return _facing(x, y, z, every) * np.exp(kappa * np.minimum(z - top, 0.0)) * (scale / area)
