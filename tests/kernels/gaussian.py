@@ -4,6 +4,8 @@ The tables come from a positive integral. Here it is the explicit Chebyshev seri
 and the definition, ring by ring, beyond.
 """
 
+from functools import cache
+
 import numpy as np
 from flint import arb, ctx
 from mpmath import mp, mpf
@@ -20,6 +22,7 @@ def least_exponent(u, alpha):
     return kappa * u * u / (1 + mp.sqrt((1 - u) * (1 + u)))
 
 
+@cache
 def sigma(u, alpha):
     """To 30 digits at least."""
     with mp.workdps(40):

@@ -7,7 +7,8 @@ import numpy as np
 
 from xsec_sym.kernels import _spherical_gaussian_regions as regions
 from xsec_sym.kernels._pairs import Pair, quotient
-from xsec_sym.kernels._support import elementwise, quick_two_sum, two_prod, two_square
+from xsec_sym.kernels._spherical_gaussian_core import WHOLE
+from xsec_sym.kernels._support import BLOCK, elementwise, quick_two_sum, two_prod, two_square
 from xsec_sym.kernels.spherical_gaussian import scaled_sigma_spherical_gaussian, sigma_spherical_gaussian
 
 # The least absolute error that can be asked for.
@@ -95,16 +96,23 @@ class FixedSphericalGaussian:
         else:
             sigma = self._piecewise(v)
         sigma += np.maximum(u, 0.0) * self.mean
-        if self.tol is None and self.rim:
-            beyond = (v > RIM).nonzero()[0] if self.kappa[0] < FACING_ALONE else (u < -RIM).nonzero()[0]
-            sigma[beyond] = sigma_spherical_gaussian(u[beyond], self.alpha)
         sigma[~(v <= 1.0)] = np.nan
+        return sigma
+
+    def _with_rim(self, u: np.ndarray) -> np.ndarray:
+        """Of many cosines, those at the rim together."""
+        sigma = np.concatenate([self._core(u[i : i + BLOCK]) for i in range(0, max(u.size, 1), BLOCK)])
+        v = np.abs(u) if self.kappa[0] < FACING_ALONE else -u
+        beyond = ((v > RIM) & (v <= 1.0)).nonzero()[0]
+        sigma[beyond] = sigma_spherical_gaussian(u[beyond], self.alpha)
         return sigma
 
     def __call__(self, u: np.typing.ArrayLike) -> np.ndarray | np.floating:
         """sigma at the cosine `u`; NaN outside [-1, 1]."""
         if self.general:
             return sigma_spherical_gaussian(u, self.alpha)
+        if self.tol is None and self.rim:
+            return elementwise(self._with_rim, block=WHOLE, u=u)
         return elementwise(self._core, u=u)
 
 
@@ -157,7 +165,7 @@ def specialize_spherical_gaussian(alpha: float, tol: float | None = None) -> Fix
     relative error of 16 eps of `sigma_spherical_gaussian`, on the side turned away too. ValueError for anything else.
     The function takes u as that does: any shape; NaN outside [-1, 1]; float32 for float32.
 
-    Largest error found: an absolute 3.2e-16 for tol = 5e-16, a relative 4.6 eps for tol = None.
+    Tests hold it to the absolute error, and to a relative 8 eps for tol = None.
 
     >>> sigma = specialize_spherical_gaussian(0.5, tol=1e-7)
     >>> sigma([-0.5, 0, 0.5, 1]).round(6)
