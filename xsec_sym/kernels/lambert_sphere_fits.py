@@ -66,10 +66,18 @@ def h_lambert_sphere_fit(
     return elementwise(_h, orders=("mode",), mu=mu, c=c, mode=mode)
 
 
-def _multiple(mu_i: np.ndarray, mu_o: np.ndarray, cos_phi: np.ndarray, sines: np.ndarray, c: np.ndarray) -> np.ndarray:
+def _multiple(
+    mu_i: np.ndarray,
+    mu_o: np.ndarray,
+    total: np.ndarray,
+    product: np.ndarray,
+    cos_phi: np.ndarray,
+    sines: np.ndarray,
+    turned: np.ndarray,
+    c: np.ndarray,
+) -> np.ndarray:
     """The three modes without their single scattering, whose terms in 1/(mu_i + mu_o) alone cancel exactly."""
     s = np.sqrt(1.0 - c)
-    total, product = mu_i + mu_o, mu_i * mu_o
     roots = np.sqrt(mu_i), np.sqrt(mu_o)
 
     def excess(mode: int) -> np.ndarray:
@@ -103,11 +111,12 @@ def _with_single(
     total = mu_i + mu_o
     sines = np.sqrt((1.0 - mu_i * mu_i) * (1.0 - mu_o * mu_o))
     cos_phi = np.cos(phi)
-    cosine = np.clip(mu_i * mu_o + sines * cos_phi, -1.0, 1.0)
+    product, turned = mu_i * mu_o, sines * cos_phi
+    cosine = np.clip(product + turned, -1.0, 1.0)
     # p(-cosine) of `deon2021:1`; its relative error forward, where it vanishes, is of no account in the sum
     phase = np.maximum(np.sqrt(1.0 - cosine * cosine) + cosine * np.arccos(-cosine), 0.0)
     single = (2.0 / (3.0 * np.pi**2)) * c * phase / total
-    value = np.maximum(single + multiple(mu_i, mu_o, cos_phi, sines, c), 0.0)
+    value = np.maximum(single + multiple(mu_i, mu_o, total, product, cos_phi, sines, turned, c), 0.0)
     value[inside & (c == 0.0)] = 0.0
     value[inside & (total == 0.0)] = np.inf
     value[~inside] = np.nan
@@ -147,12 +156,29 @@ def brdf_lambert_sphere_fit(
 FAST = (0.21715, -0.13428, -0.040671, 0.19257, 0.48841, 1.3401, -0.84707, -0.16299, -0.28055, 0.17484)
 
 
-def _fast(mu_i: np.ndarray, mu_o: np.ndarray, cos_phi: np.ndarray, sines: np.ndarray, c: np.ndarray) -> np.ndarray:
+def _fast(
+    mu_i: np.ndarray,
+    mu_o: np.ndarray,
+    total: np.ndarray,
+    product: np.ndarray,
+    cos_phi: np.ndarray,
+    sines: np.ndarray,
+    turned: np.ndarray,
+    c: np.ndarray,
+) -> np.ndarray:
     s = np.sqrt(1.0 - c)
-    total, product, turned = mu_i + mu_o, mu_i * mu_o, sines * cos_phi
     k = FAST
-    bright = k[0] + k[1] * s + k[2] * total + (k[3] * s + k[4] * product) / (s + k[5] * total)
-    return (1.0 - s) * bright * (1.0 + k[6] * s + k[7] * total + (k[8] + k[9] * total) * turned)
+    value = k[3] * s
+    value += k[4] * product
+    value /= s + k[5] * total
+    value += k[0] + k[1] * s
+    value += k[2] * total
+    shade = (k[8] + k[9] * total) * turned
+    shade += 1.0 + k[6] * s
+    shade += k[7] * total
+    value *= shade
+    value *= 1.0 - s
+    return value
 
 
 def _brdf_fast(mu_i: np.ndarray, mu_o: np.ndarray, phi: np.ndarray, c: np.ndarray) -> np.ndarray:
