@@ -141,6 +141,16 @@ def test_brdf_accuracy(scene):
     assert error[np.minimum(*arguments[:2]) > 0.2].max() < 5e-5
 
 
+def test_grazing_accuracy():
+    rng = np.random.default_rng(8)
+    mu_i, mu_o, phi = 10 ** rng.uniform(-5, -1.6, 200), 10 ** rng.uniform(-5, 0, 200), rng.uniform(0, np.pi, 200)
+    exact = brdf_lambert_sphere(mu_i, mu_o, phi, 1.0)
+    errors = [abs(model(mu_i, mu_o, phi, 1.0) - exact) for model in (brdf_lambert_sphere_fit, brdf_lambert_sphere_fast)]
+    assert errors[0].max() < 0.06 and errors[0][np.minimum(mu_i, mu_o) > 1e-3].max() < 5e-3
+    # what the docstring owns up to, and no less: a formula without logarithm
+    assert 0.1 < errors[1].max() < 0.7
+
+
 def test_fast_variant_is_better_than_the_printed_one(scene):
     arguments, exact = scene
     errors = [abs(model(*arguments) - exact) for model in (brdf_lambert_sphere_fast, printed_fast)]
