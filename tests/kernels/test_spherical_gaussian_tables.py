@@ -4,13 +4,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from flint import arb, ctx
+from flint import arb
 from mpmath import mp, mpf
 
 from tests.kernels import gaussian
 from xsec_sym.export import spherical_gaussian as generator
 from xsec_sym.kernels import _spherical_gaussian_tables as tables
 from xsec_sym.kernels._patches import Patches
+from xsec_sym.proof.ball_compile import precision
 
 # One cell of each region, and the one of the rim whose kappa reaches infinity.
 PART = [("EVEN", 1), ("ROUND", 6), ("LAYER", 1), ("RIM", 0), ("EDGE", 0)]
@@ -46,8 +47,7 @@ def test_tables_are_as_accurate_as_allowed(name):
 def test_the_integral_is_the_definition():
     rng = np.random.default_rng(5)
     u, alpha = gaussian.points(rng, 6)
-    ctx.prec = generator.BITS
-    with mp.workdps(40):
+    with precision(generator.BITS), mp.workdps(40):
         for v, rough in zip(np.abs(u), alpha, strict=True):
             ball = arb(float(v))
             kappa, s = 2 / arb(float(rough)) ** 2, ((1 - ball) * (1 + ball)).sqrt() if v < 1 else arb(0)

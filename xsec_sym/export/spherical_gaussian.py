@@ -34,6 +34,7 @@ from mpmath import mp, mpf
 
 import xsec_sym
 from xsec_sym.export.polynomials import chebyshev_nodes, coefficients, packed, polynomial, powers, shortened
+from xsec_sym.proof.ball_compile import precision
 from xsec_sym.record.files import writing
 
 ROOT = Path(xsec_sym.__file__).parent
@@ -90,9 +91,8 @@ def scaled(v: arb, s: arb, kappa: arb) -> arb:
 
 def half_layer(z: arb) -> arb:
     """h(z) = 1/sqrt(pi) - z erfcx(z)."""
-    ctx.prec *= 3
-    value = 1 / arb.pi().sqrt() - z * (z * z).exp() * z.erfc()
-    ctx.prec //= 3
+    with precision(3 * ctx.prec):
+        value = 1 / arb.pi().sqrt() - z * (z * z).exp() * z.erfc()
     return value
 
 
@@ -177,17 +177,15 @@ def sampled(region: Region, cell: Cell) -> tuple[list[list[mpf]], mpf]:
 
 def tables(region: Region, cell: Cell) -> dict[str, list[list[float]]]:
     """The precise and the fast table of a cell."""
-    ctx.prec = BITS
-    with mp.workdps(DIGITS):
+    with precision(BITS), mp.workdps(DIGITS):
         values, scale = sampled(region, cell)
         return {prefix: polynomial(values, room * scale) for prefix, room in LEFT_OUT.items()}
 
 
 def error(region: Region, cell: Cell, table: list[list[float]], points: int, seed: int) -> mpf:
     """The largest error of a table, relative to sigma(-v), at random points of its cell."""
-    ctx.prec = BITS
     chance, largest = random.Random(seed), mpf(0)
-    with mp.workdps(DIGITS):
+    with precision(BITS), mp.workdps(DIGITS):
         for _ in range(points):
             x, y = (mpf(chance.choice([-1, 1, chance.uniform(-1, 1), chance.uniform(-1, 1)])) for _ in range(2))
             # Not the ends themselves, where variables degenerate.
@@ -200,8 +198,7 @@ def error(region: Region, cell: Cell, table: list[list[float]], points: int, see
 
 def line(function: Callable[[arb], arb], low: float, high: float, count: int, left_out: mpf) -> list[float]:
     """A polynomial in one variable of [-1, 1], relatively accurate where the function hardly changes."""
-    ctx.prec = BITS
-    with mp.workdps(DIGITS):
+    with precision(BITS), mp.workdps(DIGITS):
         values = [number(function(between(low, high, node))) for node in chebyshev_nodes(count)]
         series = shortened([coefficients(values)], left_out * min(map(abs, values)))[0]
         while not series[-1]:
