@@ -1,32 +1,12 @@
-"""The two squared lobes from their definitions in mpmath, and the directions and roughnesses to try them at."""
+"""The references of the two squared lobes, and the directions and roughnesses to try kernels at."""
 
 import numpy as np
-from mpmath import mp, mpf
+from mpmath import mpf
 
-from tests.kernels import lobes, oracle
-
-
-@lobes.exactly
-def distance(x, y, z, alpha_x, alpha_y):
-    """The t > 0 for which t (x, y, z) lies on the ellipsoid: it is a t^2 + 2 b t + c = 0, with c < 0."""
-    squared = max(alpha_x, alpha_y) ** 2
-    centre, along = (1 - squared) / 2, (1 + squared) / 2
-    a = (x / alpha_x) ** 2 + (y / alpha_y) ** 2 + (z / along) ** 2
-    b = -z * centre / along**2
-    c = (centre / along) ** 2 - 1
-    return (mp.sqrt(b * b - a * c) - b) / a
-
-
-def sel(*arguments):
-    return distance(*arguments) ** 2
-
-
-@lobes.exactly
-def ssl(m, alpha):
-    """GGX at half the angle over its value at 0, which is its limit at the horizon: m = -1."""
-    if m == -1:
-        return alpha**4
-    return mp.pi * alpha**2 * lobes.ndf_ggx.inner(mp.sqrt((1 + m) / 2), alpha)
+from tests.kernels import oracle
+from xsec_sym.study.references.squared_lobes import distance as distance
+from xsec_sym.study.references.squared_lobes import sel as sel
+from xsec_sym.study.references.squared_lobes import ssl as ssl
 
 
 def worst(kernel, reference, arguments):

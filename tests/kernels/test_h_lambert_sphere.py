@@ -2,11 +2,11 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 
-from tests.kernels import three_terms
-from tests.kernels.chandrasekhar import relative, unit_rule
 from xsec_sym import kernels
 from xsec_sym.kernels import HalfSpace, h_lambert_sphere
 from xsec_sym.kernels.half_space import crowded_nodes
+from xsec_sym.study.references import three_terms
+from xsec_sym.study.references.chandrasekhar import relative, unit_rule
 
 ERROR = 2e-15
 MODES = (0, 1, 2)

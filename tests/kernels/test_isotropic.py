@@ -6,11 +6,12 @@ import pytest
 from mpmath import mp, mpf
 from scipy import integrate
 
-from tests.kernels import chandrasekhar, lobes
+from tests.kernels import lobes
 from xsec_sym import kernels
 from xsec_sym.export import isotropic as generator
 from xsec_sym.kernels import _isotropic_tables as tables
 from xsec_sym.kernels import brdf_isotropic, h_isotropic
+from xsec_sym.study.references import chandrasekhar
 
 # Ten times below what is promised of them: 1e-14 and 3e-14.
 H_ERROR, BRDF_ERROR = 1e-15, 3e-15

@@ -1,0 +1,205 @@
+"""What is compared: a quantity of several arguments, and the named ways to compute it.
+
+A quantity has running arguments, such as a cosine, and set ones, such as a roughness: those that a scene may fix once
+and a method may prepare for. In a call the running ones come first, as in the kernels.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib import import_module
+from importlib.util import find_spec
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+Function = Callable[..., Any]
+# Points as columns: one array an argument of the quantity.
+Columns = tuple[np.ndarray, ...]
+
+
+@dataclass(frozen=True)
+class Argument:
+    """A name, the edges of the cells in which errors are kept, and the scale on which points are drawn within a cell.
+
+    >>> roughness = Argument("alpha", (0.1, 1.0, 10.0), scale="log")
+    >>> roughness.low, roughness.high
+    (0.1, 10.0)
+    >>> roughness.cells(0.2, 1.0)
+    range(0, 1)
+    """
+
+    name: str
+    edges: tuple[float, ...]
+    scale: str = "linear"  # or "log"
+    integer: bool = False
+
+    @property
+    def low(self) -> float:
+        return self.edges[0]
+
+    @property
+    def high(self) -> float:
+        return self.edges[-1]
+
+    def cells(self, low: float, high: float) -> range:
+        """The cells that [low, high] meets in more than an end; the one that holds it where it is a single number."""
+        inner = np.asarray(self.edges[1:-1])
+        first = int(np.searchsorted(inner, low, side="right"))
+        last = int(np.searchsorted(inner, high, side="left"))
+        return range(first, max(first, last) + 1)
+
+    def draw(self, rng: np.random.Generator, n: int, low: float | None = None, high: float | None = None) -> np.ndarray:
+        """Points between two values, the ends of the domain where none are given."""
+        low, high = self.low if low is None else low, self.high if high is None else high
+        if self.integer:
+            return rng.integers(int(low), int(high), n, endpoint=True).astype(float)
+        if self.scale == "log":
+            return np.exp(rng.uniform(np.log(low), np.log(high), n)).clip(low, high)
+        return rng.uniform(low, high, n)
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Something to compute: `reference` gives it as an mpmath number for floats, by a route that no method takes.
+
+    trouble: named neighbourhoods where methods are known to fail; each draws about n points, as columns.
+    typical: values of the set arguments at which constant ones are timed.
+    per_cell: points drawn in a cell of the set arguments, and in each cell of the running ones for every one of those.
+    steps: by how much an argument is moved for the condition number, relatively; 0 leaves it out.
+    """
+
+    name: str
+    title: str
+    running: tuple[Argument, ...]
+    set: tuple[Argument, ...]
+    reference: Function
+    trouble: Mapping[str, Callable[[np.random.Generator, int], Columns]] = field(default_factory=dict)
+    typical: tuple[tuple[float, ...], ...] = ((),)
+    per_cell: tuple[int, int] = (2, 2)
+    unit: str = ""
+    about: str = ""
+
+    @property
+    def arguments(self) -> tuple[Argument, ...]:
+        return self.running + self.set
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return tuple(len(a.edges) - 1 for a in self.arguments)
+
+    def columns(self, rng: np.random.Generator, n: int) -> Columns:
+        """n points anywhere in the domain, on which methods are timed."""
+        return tuple(a.draw(rng, n) for a in self.arguments)
+
+
+@dataclass(frozen=True)
+class Method:
+    """A way to compute a quantity. `make(**parameters)` returns the function of all its arguments; a method that
+    `folds` is made for set arguments, `make(*set, **parameters)`, and returns a function of the running ones.
+
+    source: an entry of the record, such as "deon2016:40", or a citation, or what it is.
+    curve: the values of its parameters along which it becomes slower and more accurate; each is a mapping.
+    serial: it takes one number at a time. most: it is so slow that no more points than these are tried.
+    needs: a package without which it is left out. model: what it computes, if it stands for a quantity that is another.
+    """
+
+    name: str
+    source: str
+    make: Function
+    kind: str = "closed form"
+    curve: tuple[Mapping[str, Any], ...] = ({},)
+    folds: bool = False
+    serial: bool = False
+    most: int | None = None
+    single: bool = False
+    needs: str = ""
+    model: str = ""
+    ours: bool = False
+
+    @property
+    def available(self) -> bool:
+        return not self.needs or find_spec(self.needs) is not None
+
+    def function(self, parameters: Mapping[str, Any], fixed: Sequence[float] = ()) -> Function:
+        """The function of the arguments that are not fixed, on arrays."""
+        made = self.make(*fixed, **parameters) if self.folds else self.make(**parameters)
+        if self.serial:
+            made = one_by_one(made)
+        if fixed and not self.folds:
+            return lambda *running: made(*running, *fixed)
+        return made
+
+
+def one_by_one(function: Function) -> Function:
+    """A function of numbers, as one of arrays. What it cannot do is NaN."""
+
+    def over(*columns: Any) -> np.ndarray:
+        found = np.empty(np.broadcast_shapes(*(np.shape(c) for c in columns)))
+        for place, numbers in enumerate(zip(*(np.broadcast_to(c, found.shape).flat for c in columns), strict=True)):
+            try:
+                found.flat[place] = function(*map(float, numbers))
+            except (ArithmeticError, ValueError):
+                found.flat[place] = np.nan
+        return found
+
+    return over
+
+
+# The module of `methods` for each quantity; in the order in which they are told.
+HOMES = {
+    "sigma_spherical_gaussian": "spherical_gaussian",
+}
+
+
+class UnknownQuantity(KeyError):
+    """There is no quantity of this name."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+@dataclass(frozen=True)
+class Field:
+    """A quantity with all its methods."""
+
+    quantity: Quantity
+    methods: tuple[Method, ...]
+
+    def __post_init__(self) -> None:
+        names = [m.name for m in self.methods]
+        if len(set(names)) < len(names):
+            raise ValueError(f"{self.quantity.name} has two methods of one name: {names}")
+
+    def __getitem__(self, name: str) -> Method:
+        return next(m for m in self.methods if m.name == name)
+
+    def variants(self) -> Iterator[tuple[Method, Mapping[str, Any]]]:
+        """Every method that can run here, at every point of its curve."""
+        for method in self.methods:
+            if method.available:
+                for parameters in method.curve:
+                    yield method, parameters
+
+
+def registered(name: str) -> Field:
+    """The quantity of this name and its methods. Raises `UnknownQuantity`."""
+    if name not in HOMES:
+        from difflib import get_close_matches
+
+        near = get_close_matches(name, HOMES, n=1, cutoff=0.5)
+        hint = f"; did you mean {near[0]}?" if near else "; there are " + ", ".join(HOMES)
+        raise UnknownQuantity(f"there is no quantity {name}{hint}")
+    module = import_module(f"xsec_sym.study.methods.{HOMES[name]}")
+    return next(f for f in module.FIELDS if f.quantity.name == name)
+
+
+def along(**values: Sequence[Any]) -> tuple[dict[str, Any], ...]:
+    """The curve of one or more parameters: every combination.
+
+    >>> along(n=(2, 4))
+    ({'n': 2}, {'n': 4})
+    """
+    return tuple(dict(zip(values, chosen, strict=True)) for chosen in product(*values.values()))
