@@ -39,7 +39,7 @@ def kernel(request):
 def of_definition(name):
     """The NDF of a kernel's name in mpmath, as a function of x for a given roughness, at the working precision."""
     reference = getattr(lobes, name)
-    return lambda roughness: lambda x: reference.inner(x, mpf(roughness))
+    return lambda roughness: lambda x: reference.__wrapped__(x, mpf(roughness))
 
 
 @pytest.mark.parametrize(

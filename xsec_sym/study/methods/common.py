@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -66,7 +67,7 @@ def adaptive(ndf: Callable[..., Any], low: float = -1.0) -> Callable[[float, flo
     def sigma(u: float, shape: float) -> float:
         s = np.sqrt(1.0 - u * u)
         cuts = sorted({low, 1.0, *(x for x in (-s, s) if low < x < 1.0)})
-        pieces = zip(cuts, cuts[1:], strict=False)
+        pieces = pairwise(cuts)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", integrate.IntegrationWarning)
             return sum(integrate.quad(integrand, a, b, args=(u, shape))[0] for a, b in pieces)

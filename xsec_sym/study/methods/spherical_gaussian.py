@@ -240,7 +240,7 @@ METHODS = (
     Method("Beckmann, odd part", "deon2016:40", lambda: beckmann_with_odd_part, kind="approximation"),
     Method("error function", "deon2016:41", lambda: fitted_at_the_equator, kind="approximation"),
     *(Method(name, source, irradiance(fit), kind="fit in use") for name, (fit, source) in RIVALS.items()),
-    *quadratures(kernels.ndf_spherical_gaussian, surfaces.ndf_spherical_gaussian.inner),
+    *quadratures(kernels.ndf_spherical_gaussian, surfaces.ndf_spherical_gaussian.__wrapped__),
 )
 
 FIELDS = (Field(QUANTITY, METHODS),)

@@ -25,4 +25,4 @@ def ssl(m, alpha):
     """GGX at half the angle over its value at 0, which is its limit at the horizon: m = -1."""
     if m == -1:
         return alpha**4
-    return mp.pi * alpha**2 * ndf_ggx.inner(mp.sqrt((1 + m) / 2), alpha)
+    return mp.pi * alpha**2 * ndf_ggx.__wrapped__(mp.sqrt((1 + m) / 2), alpha)

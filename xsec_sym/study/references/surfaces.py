@@ -4,17 +4,19 @@ The cross-sections are the closed forms of deon2016, mended, which `tests/kernel
 definition; that of the spherical Gaussian is the definition.
 """
 
+from functools import wraps
+
 from mpmath import mp, mpf
 
 
 def exactly(function):
     """The function of the numbers that the doubles or singles are, at 180 digits or more."""
 
+    @wraps(function)
     def reference(*arguments):
         with mp.workdps(max(180, mp.dps)):
             return function(*(mpf(float(argument)) for argument in arguments))
 
-    reference.inner = function
     return reference
 
 
