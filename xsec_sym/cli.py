@@ -281,8 +281,12 @@ def check(context: click.Context, lhs: str, rhs: str, where: str, digits: int, s
 @click.option("--measure", is_flag=True, help="Measure anew on this machine instead of drawing what is stored.")
 @click.option("--seed", type=_Count(0), default=1, show_default=True, help="Seed of the points that are measured.")
 @click.option("--jobs", type=_Count(1, 1024), default=1, show_default=True, help="Processes for the references.")
-def chart(name: str, target: str | None, stability: bool, measure: bool, seed: int, jobs: int) -> None:
+@click.option("--cluster", metavar="ADDRESS", help="Have the references computed by a dask.distributed scheduler.")
+def chart(
+    name: str, target: str | None, stability: bool, measure: bool, seed: int, jobs: int, cluster: str | None
+) -> None:
     """Speed against accuracy for every method of a quantity, such as sigma_ggx."""
+    from xsec_sym.record.cluster import NoCluster
     from xsec_sym.study import files
     from xsec_sym.study.method import UnknownQuantity
 
@@ -294,13 +298,21 @@ def chart(name: str, target: str | None, stability: bool, measure: bool, seed: i
     try:
         files.known(name)
         with _drawn(target) as path:
-            data = files.measured(name, seed, jobs) if measure else files.stored(name)
+            data = _measured(name, seed, jobs, cluster) if measure else files.stored(name)
             if path is None:
                 click.echo("\n".join(files.table(data)))
             else:
                 files.write(data, path, kind, stability)
-    except (UnknownQuantity, files.Unmeasured) as error:
+    except (UnknownQuantity, files.Unmeasured, NoCluster) as error:
         complain(error)
+
+
+def _measured(name: str, seed: int, jobs: int, cluster: str | None) -> dict[str, Any]:
+    from xsec_sym.record.cluster import spread
+    from xsec_sym.study import files
+
+    with spread(cluster), _progress(files.variants(name)) as tick:
+        return files.measured(name, seed, jobs, tick)
 
 
 @contextlib.contextmanager

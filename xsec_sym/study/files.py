@@ -26,6 +26,11 @@ def known(name: str) -> None:
     registered(name)
 
 
+def variants(name: str) -> int:
+    """How many methods, parameters and dtypes there are to measure."""
+    return sum(2 if method.single else 1 for method, _ in registered(name).variants())
+
+
 def stored(name: str) -> dict[str, Any]:
     """The committed measurements of a quantity. Raises `UnknownQuantity`, `Unmeasured`."""
     known(name)
