@@ -8,6 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from xsec_sym.study.measure import label
 
@@ -85,17 +88,16 @@ def front(found: Iterable[Spot]) -> list[Spot]:
 
 def draw(data: Mapping[str, Any], path: str | Path) -> None:
     """Write the chart as SVG or PNG, as the file's name says."""
-    import matplotlib
+    save(figure(data), path)
 
-    matplotlib.use("Agg")
-    from matplotlib import pyplot as plt
 
+def figure(data: Mapping[str, Any]) -> Figure:
+    """The chart: a column for each kind of call, a row for each kind of error."""
     set_arguments = [a["name"] for a in data["arguments"] if a["set"]]
     calls = [False, True] if set_arguments else [False]
-    with plt.rc_context(STYLE):
-        figure, frames = plt.subplots(
-            len(ERRORS), len(calls), figsize=(4.4 * len(calls) + 3.0, 6.4), squeeze=False, sharey="row", sharex="col"
-        )
+    with rc_context(STYLE):
+        made = Figure(figsize=(4.4 * len(calls) + 3.0, 6.4))
+        frames = made.subplots(len(ERRORS), len(calls), squeeze=False, sharey="row", sharex="col")
         looks = _looks(data)
         for across, error in zip(frames, ERRORS, strict=True):
             for frame, constant in zip(across, calls, strict=True):
@@ -106,21 +108,21 @@ def draw(data: Mapping[str, Any], path: str | Path) -> None:
         for frame in frames[-1]:
             frame.set_xlabel("ns a value (median, quartiles as bars)")
         handles = [
-            plt.Line2D([], [], color=colour, marker=marker, ls="-" if ours else ":", lw=1.6 if ours else 0.8, ms=4)
+            Line2D([], [], color=colour, marker=marker, ls="-" if ours else ":", lw=1.6 if ours else 0.8, ms=4)
             for colour, marker, ours in looks.values()
         ]
-        figure.suptitle(f"{data['quantity']}: {data['title']}")
-        figure.legend(handles, list(looks), loc="center right", frameon=False, fontsize=7)
-        figure.text(0.01, 0.005, _foot(data), fontsize=5.5, color="0.35")
-        figure.tight_layout(rect=(0, 0.015, 1 - 1.9 / figure.get_figwidth(), 1))
-        save(figure, path)
-        plt.close(figure)
+        made.suptitle(f"{data['quantity']}: {data['title']}")
+        made.legend(handles, list(looks), loc="center right", frameon=False, fontsize=7)
+        made.text(0.01, 0.005, _foot(data), fontsize=5.5, color="0.35")
+        made.tight_layout(rect=(0, 0.015, 1 - 1.9 / made.get_figwidth(), 1))
+    return made
 
 
-def save(figure: Any, path: str | Path) -> None:
+def save(made: Figure, path: str | Path) -> None:
     """Without a date, so that the same data give the same file."""
     kind = Path(path).suffix.lstrip(".") or "svg"
-    figure.savefig(path, format=kind, dpi=150, metadata={"Date": None} if kind == "svg" else {})
+    with rc_context(STYLE):
+        made.savefig(path, format=kind, dpi=150, metadata={"Date": None} if kind == "svg" else {})
 
 
 def _looks(data: Mapping[str, Any]) -> dict[str, tuple[str, str, bool]]:

@@ -7,12 +7,16 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 from xsec_sym.study.chart import STYLE, save
 from xsec_sym.study.measure import label
 
 COLUMNS = 4
 NOTHING_RIGHT = 1.0
+EPS = float(np.finfo(float).eps)
 
 
 def lost_digits(data: Mapping[str, Any], row: Mapping[str, Any]) -> np.ndarray:
@@ -59,51 +63,44 @@ def _typical(row: Mapping[str, Any]) -> float:
 
 def draw(data: Mapping[str, Any], path: str | Path) -> None:
     """Write the maps as SVG or PNG, as the file's name says."""
-    import matplotlib
+    save(figure(data), path)
 
-    matplotlib.use("Agg")
-    from matplotlib import pyplot as plt
 
+def figure(data: Mapping[str, Any]) -> Figure:
+    """A map a method."""
     found = maps(data)
-    across, down = (data["arguments"][k] for k in (*axes(data), axes(data)[0])[:2])
+    across, *down = (data["arguments"][k] for k in axes(data))
     rows = -(-len(found) // COLUMNS)
-    single = len(axes(data)) == 1
-    with plt.rc_context({**STYLE, "font.size": 7}):
-        figure, frames = plt.subplots(
-            rows, COLUMNS, figsize=(11, (1.0 if single else 2.3) * rows + 0.9), squeeze=False, sharex=True, sharey=True
-        )
+    height = (2.3 if down else 1.0) * rows + 0.9
+    with rc_context({**STYLE, "font.size": 7}):
+        made = Figure(figsize=(11, height))
+        frames = made.subplots(rows, COLUMNS, squeeze=False, sharex=True, sharey=True)
         for frame in frames.flat[len(found) :]:
             frame.axis("off")
         for frame, (name, digits) in zip(frames.flat, found.items(), strict=False):
             mesh = _map(frame, digits)
             frame.set_title(name, fontsize=7)
             _ticks(frame.xaxis, across)
-            if single:
-                frame.set_yticks([])
-            else:
-                _ticks(frame.yaxis, down)
+            frame.yaxis.set_ticks([])
+            for argument in down:
+                _ticks(frame.yaxis, argument)
         for frame in frames[-1]:
             frame.set_xlabel(across["name"])
-        if not single:
-            for frame in frames[:, 0]:
-                frame.set_ylabel(down["name"])
-        figure.suptitle(f"{data['quantity']}: decimal digits lost, largest in each cell")
-        figure.tight_layout(rect=(0, 0.02, 0.93, 0.98))
-        figure.colorbar(mesh, cax=figure.add_axes((0.945, 0.2, 0.012, 0.6)), label="digits lost of 16")
+        for frame in frames[:, 0]:
+            frame.set_ylabel(down[0]["name"] if down else "")
+        made.suptitle(f"{data['quantity']}: decimal digits lost, largest in each cell")
+        made.tight_layout(rect=(0, 0.25 / height, 0.93, 1 - 0.15 / height))
+        made.colorbar(mesh, cax=made.add_axes((0.945, 0.2, 0.012, 0.6)), label="digits lost of 16")
         foot = (
             "Red outline: no digit right, or no number. Grey: not tried. Where the value underflows nothing counts. "
-            "Condition number x eps: median "
-            f"{data['condition']['median'] * 2.2e-16:.1e}, 99th percentile {data['condition']['p99'] * 2.2e-16:.1e}. "
-            f"xsec chart {data['quantity']} --stability"
+            f"Condition number x eps: median {data['condition']['median'] * EPS:.1e}, 99th percentile "
+            f"{data['condition']['p99'] * EPS:.1e}. xsec chart {data['quantity']} --stability"
         )
-        figure.text(0.01, 0.005, foot, fontsize=6, color="0.35")
-        save(figure, path)
-        plt.close(figure)
+        made.text(0.01, 0.05 / height, foot, fontsize=6, color="0.35")
+    return made
 
 
 def _map(frame: Any, digits: np.ndarray) -> Any:
-    from matplotlib.patheffects import withStroke
-
     frame.set_facecolor("0.8")
     capped = np.ma.masked_invalid(np.where(np.isinf(digits), 16.0, digits)).T
     mesh = frame.pcolormesh(capped, cmap="cividis", vmin=0, vmax=16, rasterized=True)
