@@ -24,6 +24,7 @@ STYLE: Any = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "figure.facecolor": "white",
+    "figure.constrained_layout.use": False,
 }
 FLOOR, CEILING = 1e-17, 10.0
 ERRORS = {"usual_rel": "largest relative error found", "usual_abs": "largest absolute error found"}
