@@ -299,10 +299,10 @@ class HalfSpace:
         (p, x), (q, y) = solution.excess(mu_i), solution.excess(mu_o)
         weighed = solution.weights[:, None]
         total = (weighed * x).T @ (q + y) + (weighed * p).T @ y
-        return self._scale(mode) * total / (mu_i[:, None] + mu_o)
+        return self.scale(mode) * total / (mu_i[:, None] + mu_o)
 
     @staticmethod
-    def _scale(mode: int) -> float:
+    def scale(mode: int) -> float:
         return (1.0 if mode == 0 else 2.0) * (-1.0) ** mode / np.pi
 
     def multiple(self, mu_i: np.ndarray, mu_o: np.ndarray, phi: np.ndarray) -> np.ndarray:
@@ -320,7 +320,7 @@ class HalfSpace:
                 part = slice(start, start + CHUNK)
                 a, b = i[part], o[part]
                 values[part] = solution.multiple((p[:, a], x[:, a]), (p[:, b], x[:, b]))
-            total += self._scale(mode) * values[pair] * np.cos(mode * phi)
+            total += self.scale(mode) * values[pair] * np.cos(mode * phi)
         return total / (mu_i + mu_o)
 
     def single(self, mu_i: np.ndarray, mu_o: np.ndarray, phi: np.ndarray) -> np.ndarray:
