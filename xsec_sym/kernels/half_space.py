@@ -253,9 +253,9 @@ class HalfSpace:
     """The half-space of single-scattering albedo c with the phase function 1/(4 pi) sum over l of A_l P_l.
 
     coefficients: A_0 = 1, A_1, ... of a phase function that is nowhere negative, as far as they matter. albedo: c in
-    [0, 1]. modes: how many Fourier modes the light scattered more than once gets. core: the orders up to this one make
-    the matrices of the first step; those above must be small. nodes: of its quadrature, at least 3/2 core. highest: the
-    highest order for each mode, all where left out.
+    [0, 1]. modes: how many Fourier modes the light scattered more than once gets, at most core + 1. core: the orders up
+    to this one make the matrices of the first step; those above must be small. nodes: of its quadrature, at least 3/2
+    core. highest: the highest order for each mode, all where left out.
 
     Everything is exact but for rounding and these cuts. Azimuth is taken between the outward directions, so phi = 0 is
     backscattering. ValueError for c outside [0, 1], A_0 other than 1, or no finite list of coefficients.
