@@ -17,7 +17,7 @@ from xsec_sym.kernels import (
     sample_lambert_sphere,
 )
 from xsec_sym.kernels.half_space import crowded_nodes
-from xsec_sym.kernels.half_space_table import LOWEST, HalfSpaceTable
+from xsec_sym.kernels.half_space_table import LOWEST, HalfSpaceTable, _factors
 from xsec_sym.kernels.lambert_sphere import MANY, MIDDLE, MOST_ALBEDOS, TAIL
 
 ULPS = 8
@@ -199,6 +199,16 @@ def test_table_of_another_half_space():
         difference = HalfSpaceTable(half).multiple(mu_i, mu_o, phi) - half.multiple(mu_i, mu_o, phi)
         assert abs(difference).max() < 1e-12
     assert np.all(HalfSpaceTable(HalfSpace([1.0], 0.0)).multiple(mu_i, mu_o, phi) == 0)
+
+
+@pytest.mark.parametrize("rank", [5, 30, 100])
+def test_factors_of_tables_of_any_rank(rank):
+    """More than the first guess of columns holds, too."""
+    rng = np.random.default_rng(9)
+    a = rng.normal(size=(100, rank)) @ rng.normal(size=(rank, 100))
+    left, right = _factors(a, 1e-9)
+    assert left.shape == right.shape == (100, rank)
+    assert np.allclose(left @ right.T, a, rtol=0, atol=1e-11)
 
 
 def test_brdf_conserves_energy():
