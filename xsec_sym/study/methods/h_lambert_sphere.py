@@ -66,7 +66,7 @@ QUANTITY = Quantity(
         "grazing": drawn(grazing, some(FEW), any_mode),
     },
     typical=((0.9, 0.0), (1.0, 0.0), (0.9, 1.0)),
-    per_cell=(1, 3),
+    per_cell=(1, 2),
     about="modes 0, 1, 2; the reference is Fock's integral of the K that deon2021 prints, to 30 digits.",
 )
 

@@ -232,3 +232,70 @@ def brdf(mu_i, mu_o, phi, c):
             a, b, angle = mu_i[here], mu_o[here], phi[here]
             found[here] = albedo * phase(a, b, angle) / (a + b) + multiple(a, b, angle, albedo)
     return found
+
+
+# --- what returns -----------------------------------------------------------------------------------------
+
+CORE, NODES = 48, 100
+DEGREE = 40
+HALF = 0.5**0.5
+
+
+def bond(c):
+    """The Bond albedo, and what is lost, neither as a difference from 1."""
+    mu, weight, _, phi, lost = decaying(0, c, CORE, NODES)
+    l = orders(0, CORE)
+    factors = c * coefficients(CORE)[l] * np.where(l % 2 == 0, 1.0, -1.0)
+    flux = weight * mu * phi
+    kept = float(np.sum(((flux.T * factors) @ flux) / (mu[:, None] + mu)))
+    return kept, lost
+
+
+@cache
+def barycentric(low, dark):
+    """Chebyshev's points between low and 1, and there k_d/c, or (1 - k_d)/s; and Lagrange's weights."""
+    angle = (np.arange(DEGREE) + 0.5) * np.pi / DEGREE
+    s = (1 + low) / 2 + (1 - low) / 2 * np.cos(angle)
+    values = [bond(1 - x * x)[0] / (1 - x * x) if dark else bond(1 - x * x)[1] / x for x in s]
+    return s, np.array(values), (-1.0) ** np.arange(DEGREE) * np.sin(angle)
+
+
+def ratio(s, dark):
+    """k_d/c or (1 - k_d)/s at s = sqrt(1 - c), which are smooth there: for c below 1/2, and above."""
+    nodes, values, weights = barycentric(HALF if dark else 0.0, dark)
+    gap = s - nodes
+    if not gap.all():
+        return float(values[gap == 0][0])
+    share = weights / gap
+    return float(share @ values / share.sum())
+
+
+def albedo(c):
+    c = float(c)
+    s = np.sqrt(1 - c)
+    return c * ratio(s, True) if c < 0.5 else 1 - s * ratio(s, False)
+
+
+def inverse(k_d):
+    """c with albedo(c) = k_d: c = k_d/(k_d/c) and s = (1 - k_d)/((1 - k_d)/s) by secants."""
+    k_d = float(k_d)
+    if k_d in (0.0, 1.0):
+        return k_d
+    dark = k_d < albedo(np.nextafter(0.5, 0))
+    goal = k_d if dark else 1 - k_d
+
+    def off(x):
+        return x * ratio(np.sqrt(1 - x) if dark else x, dark) / goal - 1
+
+    x = min(0.5, 4.5 * goal) if dark else min(HALF, goal / (1 + goal))
+    y = 0.9 * x
+    fx, fy = off(x), off(y)
+    for _ in range(60):
+        if fy == fx or fy == 0:
+            break
+        x, fx, y = y, fy, y - fy * (y - x) / (fy - fx)
+        fy = off(y)
+        if abs(y - x) <= 1e-16 * abs(y):
+            break
+    assert abs(fy) < 1e-14, (k_d, y, fy)
+    return y if dark else 1 - y * y
