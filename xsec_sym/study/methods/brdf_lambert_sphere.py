@@ -1,4 +1,4 @@
-"""The BRDF of a half-space of Lambertian spheres: solvers, the paper's models, this project's fits, and other models."""
+"""The BRDF of a half-space of Lambertian spheres: solvers, the paper's models, this project's fits, other models."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def kernel(c: float) -> Function:
     return lambda mu_i, mu_o, phi: kernels.brdf_lambert_sphere(mu_i, mu_o, phi, c)
 
 
-def single(mu_i: np.ndarray, mu_o: np.ndarray, phi: np.ndarray, c: np.ndarray) -> np.ndarray:
+def single(mu_i: np.ndarray, mu_o: np.ndarray, phi: np.ndarray, c: Any) -> np.ndarray:
     """`deon2021:17` alone."""
     sines = np.sqrt((1 - mu_i) * (1 + mu_i) * (1 - mu_o) * (1 + mu_o))
     cosine = np.clip(mu_i * mu_o + sines * np.cos(phi), -1, 1)

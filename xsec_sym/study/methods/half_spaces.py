@@ -45,10 +45,6 @@ def grazing(rng: np.random.Generator, n: int) -> np.ndarray:
     return mu
 
 
-def near_1(rng: np.random.Generator, n: int) -> np.ndarray:
-    return 1 - 10 ** rng.uniform(-16, -2, n)
-
-
 def drawn(*draws: Callable[[np.random.Generator, int], np.ndarray]) -> Callable[[np.random.Generator, int], Columns]:
     return lambda rng, n: tuple(draw(rng, n) for draw in draws)
 
@@ -226,22 +222,34 @@ class Characteristic:
         return lambda mu: np.exp(np.polynomial.chebyshev.chebval(2 * np.sqrt(np.sqrt(mu)) - 1, table))
 
 
-def quadratures(of: Characteristic, source: str, after: Callable[[Function], Function] = lambda h: h,
-                fold: Callable[..., Any] | None = None) -> tuple[Method, ...]:  # fmt: skip
-    """The ways from K or Psi to H, and to what `after` makes of a function H, `fold` of one for set arguments."""
-    folded = fold or (lambda make: make)
+def quadratures(
+    of: Characteristic,
+    source: str,
+    after: Callable[[Function], Function] = lambda h: h,
+    fold: Callable[..., Any] = lambda make: make,
+    few: bool = False,
+) -> tuple[Method, ...]:
+    """The ways from K or Psi to H, and to what `after` makes of a function H, `fold` of one for set arguments.
+
+    few: every other point of the curves.
+    """
+
+    def curve(**values: Sequence[int]) -> tuple[dict[str, Any], ...]:
+        ((name, chosen),) = values.items()
+        return along(**{name: chosen[few :: 2 if few else 1]})
+
     return (
         Method("Fock, trapezoidal in log t", source, lambda n: after(of.trapezoidal(n)), kind="quadrature",
-               curve=along(n=(16, 32, 64, 128, 256))),
-        Method("Fock, compiled", source, lambda n: after(of.compiled(n)), kind="quadrature",
-               curve=along(n=(64,)), needs="numba"),
+               curve=curve(n=(16, 32, 64, 128, 256))),
+        Method("Fock, compiled", source, lambda n: after(of.compiled(n)), kind="quadrature", curve=along(n=(64,)),
+               needs="numba"),
         Method("Fock, Gauss-Legendre", source, lambda n: after(of.gauss(n)), kind="quadrature",
-               curve=along(n=(8, 16, 32, 64))),
-        Method("nonlinear equation", "iteration of the equation of H", folded(of.iterated), kind="iteration",
-               curve=along(n=(4, 8, 16, 32, 64)), folds=True),
-        Method("Chebyshev table for one albedo", "interpolation of Fock's integral", folded(of.tabled), kind="table",
-               curve=along(n=(4, 8, 16, 32)), folds=True),
+               curve=curve(n=(8, 16, 32, 64))),
+        Method("nonlinear equation", "iteration of the equation of H", fold(of.iterated), kind="iteration",
+               curve=curve(n=(4, 8, 16, 32, 64)), folds=True),
+        Method("Chebyshev table for one albedo", "interpolation of Fock's integral", fold(of.tabled), kind="table",
+               curve=curve(n=(4, 8, 16, 32)), folds=True),
         Method("scipy.integrate.quad", source, lambda: after(of.adaptive), kind="quadrature", serial=True, most=100),
         Method("mpmath.quad", source, lambda digits: after(of.arbitrary(digits)), kind="arbitrary precision",
-               curve=along(digits=(15, 30)), serial=True, most=10),
+               curve=along(digits=(15,) if few else (15, 30)), serial=True, most=10),
     )  # fmt: skip

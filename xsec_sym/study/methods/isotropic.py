@@ -19,7 +19,6 @@ from xsec_sym.study.methods.half_spaces import (
     drawn,
     grazing,
     inside,
-    near_1,
     quadratures,
     some,
 )
@@ -52,14 +51,12 @@ BRDF = Quantity(
     set=(ALBEDO,),
     reference=chandrasekhar.brdf,
     trouble={
-        "nearly white": drawn(inside, inside, some(WHITE)),
-        "white": drawn(inside, inside, some((1.0,))),
+        "white": drawn(inside, inside, some(WHITE)),
         "grazing": drawn(grazing, inside, some(FEW)),
         "grazing both": drawn(lambda rng, n: 10 ** rng.uniform(-12, -3, n), grazing, some(FEW)),
-        "facing": drawn(near_1, near_1, some(FEW)),
     },
-    typical=TYPICAL,
-    per_cell=(2, 2),
+    typical=((0.9,),),
+    per_cell=(1, 2),
     unit="1/sr",
 )
 
@@ -139,7 +136,13 @@ def brdf_for_one(make: Callable[..., Function]) -> Callable[..., Function]:
     return folded
 
 
-def methods(kernel: Function, source: str, after: Callable[[Function], Function], fold: Any) -> tuple[Method, ...]:
+def methods(
+    kernel: Function,
+    source: str,
+    after: Callable[[Function], Function] = lambda h: h,
+    fold: Callable[..., Any] = lambda make: make,
+    few: bool = False,
+) -> tuple[Method, ...]:
     def compiled(number: Callable[..., float]) -> Callable[[], Function]:
         return lambda: after(loop(number)())
 
@@ -154,11 +157,11 @@ def methods(kernel: Function, source: str, after: Callable[[Function], Function]
                kind="table", curve=along(n=(4, 8, 16))),
         Method("linear table", "interpolation of Fock's integral", lambda n: after(lattice(n)), kind="table",
                curve=along(n=(16, 64, 256))),
-        *quadratures(OF, FOCK, after, fold),
+        *quadratures(OF, FOCK, after, fold, few),
     )  # fmt: skip
 
 
 FIELDS = (
-    Field(H, methods(kernels.h_isotropic, "dupuy2016:31", lambda h: h, None)),
-    Field(BRDF, methods(kernels.brdf_isotropic, "dupuy2016:30", brdf, brdf_for_one)),
+    Field(H, methods(kernels.h_isotropic, "dupuy2016:31")),
+    Field(BRDF, methods(kernels.brdf_isotropic, "dupuy2016:30", brdf, brdf_for_one, few=True)),
 )
