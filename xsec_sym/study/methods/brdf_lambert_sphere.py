@@ -142,7 +142,7 @@ METHODS = (
     Method("kernel", "deon2021:18", kernel, kind="solver", folds=True, ours=True),
     Method("HalfSpace", "exact single scattering, orders up to n", solved, kind="solver",
            curve=along(n=(2, 4, 8, 16, 32)), folds=True),
-    Method("HalfSpace, series throughout", "deon2021:4 up to n, deon2021:5 for n = 2", series, kind="solver",
+    Method("HalfSpace, series throughout", "deon2021:4", series, kind="solver",
            curve=along(n=(2, 8)), folds=True),
     Method("table for one albedo", "interpolation of HalfSpace", tabled, kind="table", curve=along(n=(8, 32)),
            folds=True),

@@ -116,7 +116,7 @@ def lattice(n: int) -> Function:
 
 
 HAPKE = "B. Hapke, 1981", "B. Hapke, 2002"
-FOCK = "Fock's integral, as in deon2021:22"
+FOCK = "V. A. Fock, 1944"
 
 
 def brdf(h: Function) -> Function:

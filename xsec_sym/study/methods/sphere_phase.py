@@ -218,7 +218,7 @@ SAMPLES = (
            curve=along(n=(1, 2, 3))),
     Method("bisection", "root of the closed form", bisected, kind="iteration", curve=along(n=(10, 20, 40, 60))),
     Method("linear table", "interpolation of the roots", quantiles, kind="table", curve=along(n=(64, 1024, 16384))),
-    Method("quad and brentq", "root of the integral of deon2021:1", lambda: integrated, kind="quadrature", serial=True,
+    Method("quad and brentq", "root of an integral", lambda: integrated, kind="quadrature", serial=True,
            most=100),
     Method("mpmath.findroot", "root of the closed form", exactly, kind="arbitrary precision",
            curve=along(digits=(15, 30)), serial=True, most=40),
