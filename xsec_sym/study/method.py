@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from importlib import import_module
 from importlib.util import find_spec
 from itertools import product
+from math import ceil, floor
 from typing import Any
 
 import numpy as np
@@ -55,7 +56,7 @@ class Argument:
         """Points between two values, the ends of the domain where none are given."""
         low, high = self.low if low is None else low, self.high if high is None else high
         if self.integer:
-            return rng.integers(int(low), int(high), n, endpoint=True).astype(float)
+            return rng.integers(ceil(low), floor(high), n, endpoint=True).astype(float)
         if self.scale == "log":
             return np.exp(rng.uniform(np.log(low), np.log(high), n)).clip(low, high)
         return rng.uniform(low, high, n)
@@ -69,6 +70,7 @@ class Quantity:
     typical: values of the set arguments at which constant ones are timed.
     per_cell: points drawn in a cell of the set arguments, and in each cell of the running ones for every one of those.
     usual: ranges that scenes are made of, where the whole domain is much wider; charts show the errors there.
+    references: the reference of columns of doubles at once, as doubles, where that is the better part of its cost.
     """
 
     name: str
@@ -82,6 +84,7 @@ class Quantity:
     usual: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     unit: str = ""
     about: str = ""
+    references: Function | None = None
 
     @property
     def arguments(self) -> tuple[Argument, ...]:
@@ -161,6 +164,14 @@ def one_by_one(function: Function) -> Function:
 # The module of `methods` for each quantity; in the order in which they are told.
 HOMES = {
     "sigma_spherical_gaussian": "spherical_gaussian",
+    "h_isotropic": "isotropic",
+    "brdf_isotropic": "isotropic",
+    "h_lambert_sphere": "h_lambert_sphere",
+    "phase_lambert_sphere": "sphere_phase",
+    "sample_lambert_sphere": "sphere_phase",
+    "brdf_lambert_sphere": "brdf_lambert_sphere",
+    "albedo_lambert_sphere": "albedo_lambert_sphere",
+    "albedo_lambert_sphere_inverse": "albedo_lambert_sphere",
 }
 
 

@@ -75,6 +75,9 @@ def _drawn(
 def right(quantity: Quantity, label: str, columns: Columns, dtype: str = "float64", jobs: int = 1) -> Points:
     """The points as numbers of `dtype`, with the reference's values."""
     columns = tuple(np.asarray(c, dtype).astype(np.float64) for c in columns)
+    if quantity.references is not None:
+        high = np.asarray(quantity.references(*columns), float)
+        return Points(label, columns, high, np.zeros_like(high))
     rows = list(zip(*columns, strict=True))
     parts = [rows[k : k + PARTS] for k in range(0, len(rows), PARTS)]
     done = Parallel(n_jobs=jobs)(delayed(_values)(quantity.reference, part) for part in parts)
