@@ -137,7 +137,8 @@ def spherical_gaussian_rows() -> list[Row]:
 
 
 def compiled_rows() -> list[Row]:
-    """The spherical Gaussian's kernels compiled by Numba, on one thread and on two."""
+    """The spherical Gaussian's kernels compiled by Numba, on one thread and on two; and its derivatives in NumPy."""
+    from xsec_sym import kernels
     from xsec_sym.kernels import compiled
 
     rng = np.random.default_rng(6)
@@ -150,6 +151,8 @@ def compiled_rows() -> list[Row]:
         "the same, alpha in (0.1, 1)": lambda: compiled.sigma_spherical_gaussian(u, usual),
         "compiled.log_sigma_spherical_gaussian": lambda: compiled.log_sigma_spherical_gaussian(u, alpha),
         "compiled.scaled_sigma_spherical_gaussian": lambda: compiled.scaled_sigma_spherical_gaussian(u, alpha),
+        "sigma_spherical_gaussian_du": lambda: kernels.sigma_spherical_gaussian_du(u, alpha),
+        "sigma_spherical_gaussian_dalpha": lambda: kernels.sigma_spherical_gaussian_dalpha(u, alpha),
     }
     exp = median_seconds(lambda: np.exp(u))
     figures = {name: median_seconds(run) for name, run in runs.items()}

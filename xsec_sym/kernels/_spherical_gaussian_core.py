@@ -54,7 +54,7 @@ def evaluate(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarr
             left.append((rest[0] + start, rest[1]))
     if left:
         places, cells = left[0] if len(left) == 1 else (np.concatenate(part) for part in zip(*left, strict=True))
-        for region, chosen, cell in _grouped(kit, places, cells):
+        for region, chosen, cell in grouped(kit, places, cells):
             at, rough = u[chosen], alpha[chosen]
             found = region(kit, np.abs(at), rough, cell)
             value[chosen] = _made(kit, form, at, rough, found)
@@ -145,7 +145,7 @@ def _tiny(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
     return np.where((u > 0.0) | (alpha == 0.0), form.of(sigma), form.shrunk(evaluate(kit, form, away, rough), up))
 
 
-def _grouped(
+def grouped(
     kit: Kit, places: np.ndarray, cells: np.ndarray
 ) -> Iterator[tuple[regions.Region, np.ndarray, int | np.ndarray]]:
     """The places region by region, with their cells; and cell by cell where they are many."""
