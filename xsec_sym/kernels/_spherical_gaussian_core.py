@@ -19,7 +19,7 @@ DARK_ENDS = 746.0
 # Up to here on kappa a Taylor series of three terms has all digits; up to there EVEN has a single cell.
 FAINT, DIM = 0.006, tables.EVEN_Y[1] ** 0.5
 # Points that are sorted by cell together; those looked at at once before that, and those of one cell.
-WHOLE, PART, CHUNK = 2**18, 16384, 4096
+WHOLE, PART, CHUNK = 2**19, 16384, 8192
 # From so many on they are sorted, while fewer gather the coefficients of their cells.
 MANY = 8192
 # Below it the exponent needs no second part.
@@ -100,7 +100,11 @@ def _simple(
         known ^= tiny
     a = alpha * alpha
     kappa, s = 2.0 / a, regions.sine(v)
-    gone = kappa * (v * v) / (1.0 + s) > np.where(u > 0.0, _lit_ends(kappa), form.dark_ends)
+    w = kappa * (v * v) / (1.0 + s)
+    gone = w > LIT_ENDS
+    gone &= u > 0.0
+    gone &= (kappa < MODEST) | (w > LIT_ENDS_EVER)
+    gone |= w > form.dark_ends
     gone &= known
     chosen = gone.nonzero()[0]
     if chosen.size:
@@ -130,10 +134,6 @@ def _faint(u: np.ndarray, kappa: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     square, k = u * u, kappa * kappa
     even = 0.25 + k * ((square - 1 / 3) / 32 - k * ((square / 2304 + 1 / 384) * square - 11 / 11520))
     return even, u * kappa * ((k / 945 - 1 / 90) * k + 1 / 6)
-
-
-def _lit_ends(kappa: np.ndarray) -> np.ndarray | float:
-    return LIT_ENDS if kappa.max() < MODEST else np.where(kappa < MODEST, LIT_ENDS, LIT_ENDS_EVER)
 
 
 def _tiny(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
