@@ -54,10 +54,19 @@ def evaluate(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarr
             left.append((rest[0] + start, rest[1]))
     if left:
         places, cells = left[0] if len(left) == 1 else (np.concatenate(part) for part in zip(*left, strict=True))
+        waiting = []
         for region, chosen, cell in grouped(kit, places, cells):
             at, rough = u[chosen], alpha[chosen]
             found = region(kit, np.abs(at), rough, cell)
-            value[chosen] = _made(kit, form, at, rough, found)
+            if isinstance(found, Dark) and not found.along and places.size < MANY:
+                waiting.append((chosen, found))
+            else:
+                value[chosen] = _made(kit, form, at, rough, found)
+        if waiting:
+            # Few points cost by the call.
+            chosen = np.concatenate([chosen for chosen, _ in waiting])
+            factor, x, s = (np.concatenate(part) for part in zip(*(found[:3] for _, found in waiting), strict=True))
+            value[chosen] = form.steep(kit, u[chosen], alpha[chosen], Dark(factor, x, s))
     return value
 
 
