@@ -29,7 +29,7 @@ KERNELS = [sigma_spherical_gaussian_du, sigma_spherical_gaussian_dalpha]
 both = pytest.mark.parametrize("kernel", KERNELS)
 # One cell of each region, and of the derivative by u where the other is of kappa.
 PART = [("U_", "EVEN", 1), ("KAPPA_", "ROUND", 6), ("U_", "LAYER", 1), ("KAPPA_", "LAYER", 8), ("U_", "RIM", 0)]
-PART += [("KAPPA_", "RIM", 1), ("KAPPA_", "EDGE", 2)]
+PART += [("KAPPA_", "EDGE", 2)]
 
 
 def worst(kernel, u, alpha):
@@ -84,7 +84,7 @@ def test_corners(kernel, alpha):
 @both
 def test_no_jump_at_a_switch(kernel):
     """As right on either side of a border of a region or a cell."""
-    sides = [(u[i], alpha[i]) for u, alpha in list(switches())[::3] for i in (7, 8)]
+    sides = [(u[i], alpha[i]) for u, alpha in list(switches())[::5] for i in (7, 8)]
     error, where = worst(kernel, *np.array(sides).T)
     assert error < RELATIVE, where
 
