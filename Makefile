@@ -46,6 +46,7 @@ generate: $(READY)
 	$(BIN)/python -m xsec_sym.export
 	$(BIN)/python -m xsec_sym.export.isotropic
 	$(BIN)/python -m xsec_sym.export.spherical_gaussian
+	$(BIN)/python -m xsec_sym.export.spherical_gaussian_slopes
 	$(BIN)/python -m xsec_sym.export.lambert_sphere_fits
 
 clean:

@@ -136,6 +136,29 @@ def spherical_gaussian_rows() -> list[Row]:
     return rows
 
 
+def compiled_rows() -> list[Row]:
+    """The spherical Gaussian's kernels compiled by Numba, on one thread and on two; and its derivatives in NumPy."""
+    from xsec_sym import kernels
+    from xsec_sym.kernels import compiled
+
+    rng = np.random.default_rng(6)
+    u, alpha, usual = rng.uniform(-1, 1, VALUES), 10 ** rng.uniform(-4, 4, VALUES), rng.uniform(0.1, 1, VALUES)
+    single = u.astype(np.float32), alpha.astype(np.float32)
+    runs: dict[str, Callable[[], object]] = {
+        "compiled.sigma_spherical_gaussian": lambda: compiled.sigma_spherical_gaussian(u, alpha),
+        "the same, 2 threads": lambda: compiled.sigma_spherical_gaussian(u, alpha, threads=2),
+        "the same, float32": lambda: compiled.sigma_spherical_gaussian(*single),
+        "the same, alpha in (0.1, 1)": lambda: compiled.sigma_spherical_gaussian(u, usual),
+        "compiled.log_sigma_spherical_gaussian": lambda: compiled.log_sigma_spherical_gaussian(u, alpha),
+        "compiled.scaled_sigma_spherical_gaussian": lambda: compiled.scaled_sigma_spherical_gaussian(u, alpha),
+        "sigma_spherical_gaussian_du": lambda: kernels.sigma_spherical_gaussian_du(u, alpha),
+        "sigma_spherical_gaussian_dalpha": lambda: kernels.sigma_spherical_gaussian_dalpha(u, alpha),
+    }
+    exp = median_seconds(lambda: np.exp(u))
+    figures = {name: median_seconds(run) for name, run in runs.items()}
+    return [(name, f"{1e9 * one / VALUES:.2f} ns/value", f"{one / exp:.1f} x np.exp") for name, one in figures.items()]
+
+
 def half_space_rows() -> list[Row]:
     """H and the BRDF of isotropic scattering, with an array of albedos as long as that of cosines, and with one."""
     from xsec_sym import kernels
@@ -300,6 +323,7 @@ SECTIONS: list[Callable[[], list[Row]]] = [
     kernel_rows,
     lobe_rows,
     spherical_gaussian_rows,
+    compiled_rows,
     half_space_rows,
     lambert_sphere_rows,
     sampler_rows,

@@ -39,6 +39,7 @@ from xsec_sym.kernels.spherical_gaussian import (
     sigma_spherical_gaussian,
 )
 from xsec_sym.kernels.spherical_gaussian_fixed import FixedSphericalGaussian, specialize_spherical_gaussian
+from xsec_sym.kernels.spherical_gaussian_slopes import sigma_spherical_gaussian_dalpha, sigma_spherical_gaussian_du
 from xsec_sym.kernels.table1 import sigma_inv1m, sigma_inv1m2, sigma_inv1p, sigma_inv1pu2
 from xsec_sym.kernels.visible_normals import (
     sample_visible_ggx,
@@ -91,6 +92,8 @@ __all__ = [
     "sigma_inv1pu2",
     "sigma_power",
     "sigma_spherical_gaussian",
+    "sigma_spherical_gaussian_dalpha",
+    "sigma_spherical_gaussian_du",
     "smith_g1",
     "smith_g2",
     "smith_g2_given_g1",

@@ -19,7 +19,7 @@ DARK_ENDS = 746.0
 # Up to here on kappa a Taylor series of three terms has all digits; up to there EVEN has a single cell.
 FAINT, DIM = 0.006, tables.EVEN_Y[1] ** 0.5
 # Points that are sorted by cell together; those looked at at once before that, and those of one cell.
-WHOLE, PART, CHUNK = 2**18, 16384, 4096
+WHOLE, PART, CHUNK = 2**19, 16384, 8192
 # From so many on they are sorted, while fewer gather the coefficients of their cells.
 MANY = 8192
 # Below it the exponent needs no second part.
@@ -54,10 +54,19 @@ def evaluate(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarr
             left.append((rest[0] + start, rest[1]))
     if left:
         places, cells = left[0] if len(left) == 1 else (np.concatenate(part) for part in zip(*left, strict=True))
-        for region, chosen, cell in _grouped(kit, places, cells):
+        waiting = []
+        for region, chosen, cell in grouped(kit, places, cells):
             at, rough = u[chosen], alpha[chosen]
             found = region(kit, np.abs(at), rough, cell)
-            value[chosen] = _made(kit, form, at, rough, found)
+            if isinstance(found, Dark) and not found.along and places.size < MANY:
+                waiting.append((chosen, found))
+            else:
+                value[chosen] = _made(kit, form, at, rough, found)
+        if waiting:
+            # Few points cost by the call.
+            chosen = np.concatenate([chosen for chosen, _ in waiting])
+            factor, x, s = (np.concatenate(part) for part in zip(*(found[:3] for _, found in waiting), strict=True))
+            value[chosen] = form.steep(kit, u[chosen], alpha[chosen], Dark(factor, x, s))
     return value
 
 
@@ -100,7 +109,11 @@ def _simple(
         known ^= tiny
     a = alpha * alpha
     kappa, s = 2.0 / a, regions.sine(v)
-    gone = kappa * (v * v) / (1.0 + s) > np.where(u > 0.0, _lit_ends(kappa), form.dark_ends)
+    w = kappa * (v * v) / (1.0 + s)
+    gone = w > LIT_ENDS
+    gone &= u > 0.0
+    gone &= (kappa < MODEST) | (w > LIT_ENDS_EVER)
+    gone |= w > form.dark_ends
     gone &= known
     chosen = gone.nonzero()[0]
     if chosen.size:
@@ -132,10 +145,6 @@ def _faint(u: np.ndarray, kappa: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return even, u * kappa * ((k / 945 - 1 / 90) * k + 1 / 6)
 
 
-def _lit_ends(kappa: np.ndarray) -> np.ndarray | float:
-    return LIT_ENDS if kappa.max() < MODEST else np.where(kappa < MODEST, LIT_ENDS, LIT_ENDS_EVER)
-
-
 def _tiny(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
     """Of u and alpha scaled up by a power of 2, on the side turned away; the odd part is u."""
     mantissa, power = np.frexp(alpha)
@@ -145,7 +154,7 @@ def _tiny(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
     return np.where((u > 0.0) | (alpha == 0.0), form.of(sigma), form.shrunk(evaluate(kit, form, away, rough), up))
 
 
-def _grouped(
+def grouped(
     kit: Kit, places: np.ndarray, cells: np.ndarray
 ) -> Iterator[tuple[regions.Region, np.ndarray, int | np.ndarray]]:
     """The places region by region, with their cells; and cell by cell where they are many."""
