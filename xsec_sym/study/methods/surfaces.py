@@ -26,17 +26,16 @@ ROOT_PI = np.sqrt(np.pi)
 def with_ring_lemma(ndf: Callable[..., Any], breakpoints: tuple[float, ...] = ()) -> Method:
     """The library's own adaptive integral of any distribution."""
 
-    def make(shape: float, rtol: float) -> Callable[..., Any]:
-        return kernels.cross_section(lambda x: ndf(x, shape), rtol=rtol, breakpoints=breakpoints)
+    def make(shape: float) -> Callable[..., Any]:
+        return kernels.cross_section(lambda x: ndf(x, shape), rtol=1e-6, breakpoints=breakpoints)
 
     return Method(
         "cross_section",
         "deon2016:15",
         make,
         kind="quadrature",
-        curve=along(rtol=(1e-4, 1e-10)),
         folds=True,
-        most=400,
+        most=50,
         ours=True,
     )
 
@@ -146,7 +145,7 @@ BECKMANN_METHODS = (
     Method(
         "rational Lambda", "B. Walter et al., 2007", lambda: both_sides(smith.rational_lambda), kind="fit in use"
     ),
-    Method("Mitsuba 3", "smith_g1", with_mitsuba("Beckmann"), kind="fit in use", serial=True, most=500, needs="mitsuba"),
+    Method("Mitsuba 3", "smith_g1", with_mitsuba("Beckmann"), "fit in use", serial=True, most=500, needs="mitsuba"),
     Method("GGX", "deon2016:25", lambda: kernels.sigma_ggx, model="sigma_ggx", kind="other model"),
     Method(
         "spherical Gaussian",
@@ -288,13 +287,19 @@ def powers_of_b(n: int) -> Callable[..., Any]:
 def ellipsoidal_in_legendre(b: float, n: int) -> Callable[[Any], Any]:
     """sum a_l Q_l(1/b)/Q_0(1/b) P_l(u) up to l = n; the Q_l are the smaller solution of their recurrence."""
     orders = even_orders(n)
-    start = n + min(100_000, int(40 / np.arccosh(1 / b))) + 2
-    ratios = np.empty(start + 1)
-    following = 0.0
-    for l in range(start, 0, -1):
-        # l Q_{l-1} = (2l + 1) x Q_l - (l + 1) Q_{l+1}
-        ratios[l] = following = l / ((2 * l + 1) / b - (l + 1) * following)
-    q = np.cumprod(np.concatenate([[1.0], ratios[1 : n + 1]]))
+    decay = np.arccosh(1 / b)
+    # l Q_{l-1} = (2l + 1) x Q_l - (l + 1) Q_{l+1}: upward where the larger solution does not outgrow it
+    if n * decay < 1:
+        q = np.ones(n + 1)
+        q[1] = 1 / b - 1 / np.arctanh(b)
+        for l in range(1, n):
+            q[l + 1] = ((2 * l + 1) / b * q[l] - l * q[l - 1]) / (l + 1)
+    else:
+        start = n + int(40 / decay) + 2
+        ratios = np.zeros(start + 2)
+        for l in range(start, 0, -1):
+            ratios[l] = l / ((2 * l + 1) / b - (l + 1) * ratios[l + 1])
+        q = np.cumprod(np.concatenate([[1.0], ratios[1 : n + 1]]))
     terms = clamped_cosine(orders) * q[orders]
     return lambda u: sum(c * special.eval_legendre(l, u) for l, c in zip(orders, terms, strict=True))
 
