@@ -18,6 +18,8 @@ from xsec_sym.study.method import Argument, Columns, Method, along
 from xsec_sym.study.references import ring as by_definition
 
 BLOCK = 2**14
+# Of the quadrature over rings, where it is one of many methods.
+NODES = (8, 24, 72)
 COSINES = (0.0, 1e-3, 0.01, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.75, 0.9, 0.97, 0.999, 1.0)
 
 
@@ -94,7 +96,11 @@ def arbitrary(ndf: Callable[..., Any], digits: int, low: float = -1.0) -> Callab
 
 
 def quadratures(
-    ndf: Callable[..., Any], exact: Callable[..., Any], low: float = -1.0, most: tuple[int, int] = (500, 60)
+    ndf: Callable[..., Any],
+    exact: Callable[..., Any],
+    low: float = -1.0,
+    most: tuple[int, int] = (500, 60),
+    nodes: tuple[int, ...] = (8, 16, 32, 64, 128),
 ) -> tuple[Method, ...]:
     """The three of them as methods; `exact` is the distribution in mpmath. most: points that the slow ones get."""
     return (
@@ -103,7 +109,7 @@ def quadratures(
             "quadrature of the definition",
             lambda n: over_rings(ndf, n, low),
             kind="quadrature",
-            curve=along(n=(8, 16, 32, 64, 128)),
+            curve=along(n=nodes),
         ),
         Method(
             "scipy.integrate.quad",

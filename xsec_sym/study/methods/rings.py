@@ -15,7 +15,7 @@ from scipy import integrate, ndimage, special
 from xsec_sym import kernels
 from xsec_sym.kernels import dirac_ring
 from xsec_sym.study.method import Argument, Columns, Field, Method, Quantity, along
-from xsec_sym.study.methods.common import blocked, cosine, facing, loop, near, quadratures
+from xsec_sym.study.methods.common import NODES, blocked, cosine, facing, loop, near, quadratures
 from xsec_sym.study.references import ring as reference
 
 # --- the ring ---------------------------------------------------------------------------------------------
@@ -314,7 +314,8 @@ def chebyshev_interpolant(p: float, n: int) -> Callable[[np.ndarray], np.ndarray
     """The polynomial in u^2 through n values of the kernel."""
     if p % 2:
         return lambda u: 2 * np.pi / (p + 2) * u
-    series = np.polynomial.chebyshev.chebinterpolate(lambda t: kernels.sigma_power(np.sqrt((1 + t) / 2), p), n - 1)
+    interpolate: Callable[..., Any] = np.polynomial.chebyshev.chebinterpolate
+    series = interpolate(lambda t: kernels.sigma_power(np.sqrt((1 + t) / 2), p), n - 1)
     return lambda u: np.polynomial.chebyshev.chebval(2 * u * u - 1, series)
 
 
@@ -352,7 +353,7 @@ POWER_METHODS = (
         folds=True,
     ),
     Method("compiled series", "deon2016:T1.even.s in a loop", loop(compiled_power), kind="series", needs="numba"),
-    *quadratures(lambda x, p: x**p, lambda x, p: x ** int(p), most=(60, 30)),
+    *quadratures(lambda x, p: x**p, lambda x, p: x ** int(p), most=(60, 15), nodes=NODES),
 )
 
 FIELDS = (Field(RING, RING_METHODS), Field(POWER, POWER_METHODS))

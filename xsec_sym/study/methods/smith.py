@@ -5,7 +5,8 @@ a stands for 1/(alpha tan(theta)), the slope of the direction of view over the r
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from dataclasses import replace
 from functools import cache
 from math import erf, erfc, exp, sqrt
 from typing import Any
@@ -16,7 +17,7 @@ from scipy import special
 from xsec_sym import kernels
 from xsec_sym.kernels import beckmann
 from xsec_sym.study.method import Columns, Field, Method, Quantity, along
-from xsec_sym.study.methods.common import cosine, decades, loop, near, quadratures
+from xsec_sym.study.methods.common import NODES, cosine, decades, loop, near, quadratures
 from xsec_sym.study.references import surfaces as reference
 
 ROOT_PI = np.sqrt(np.pi)
@@ -224,14 +225,17 @@ def mitsuba(kind: str) -> Callable[[], Callable[[float, float], float]]:
     return lambda: value
 
 
-def over_cosine(method: Method) -> Method:
-    """A method for sigma as one for Lambda, sigma(-u)/u."""
+def over_cosine(methods: Iterable[Method]) -> tuple[Method, ...]:
+    """Methods for sigma as ones for Lambda, sigma(-u)/u."""
 
-    def make(**parameters: Any) -> Callable[..., Any]:
-        sigma = method.make(**parameters)
-        return lambda u, alpha: sigma(-u, alpha) / u
+    def divided(make: Callable[..., Any]) -> Callable[..., Any]:
+        def made(**parameters: Any) -> Callable[..., Any]:
+            sigma = make(**parameters)
+            return lambda u, alpha: sigma(-u, alpha) / u
 
-    return Method(method.name, method.source, make, method.kind, method.curve, serial=method.serial, most=method.most)
+        return made
+
+    return tuple(replace(method, make=divided(method.make)) for method in methods)
 
 
 BECKMANN_METHODS = (
@@ -248,12 +252,15 @@ BECKMANN_METHODS = (
     Method("compiled erf", "xsec:smith.beckmann.lambda in a loop", loop(compiled_beckmann), needs="numba"),
     Method("compiled erfc", "with erfc, in a loop", loop(compiled_complement), needs="numba"),
     Method(
-        "compiled rational Lambda", "B. Walter et al., 2007, in a loop", loop(compiled_rational), kind="fit in use",
+        "compiled rational Lambda",
+        "B. Walter et al., 2007, in a loop",
+        loop(compiled_rational),
+        kind="fit in use",
         needs="numba",
     ),
     Method("compiled, stable", "the kernel's quotient in a loop", loop(compiled_quotient), needs="numba", ours=True),
-    *map(over_cosine, quadratures(kernels.ndf_beckmann, reference.ndf_beckmann.__wrapped__, 0.0, most=(60, 20))),
-)  # fmt: skip
+    *over_cosine(quadratures(kernels.ndf_beckmann, reference.ndf_beckmann.__wrapped__, 0.0, (60, 15), NODES)),
+)
 
 GGX_METHODS = (
     Method("kernel", "xsec:smith.ggx.lambda", lambda: kernels.lambda_ggx, single=True, ours=True),
@@ -267,7 +274,7 @@ GGX_METHODS = (
     Method("Mitsuba 3", "smith_g1", mitsuba("GGX"), serial=True, most=500, needs="mitsuba"),
     Method("compiled", "xsec:smith.ggx.lambda in a loop", loop(compiled_ggx), needs="numba"),
     Method("compiled, stable", "the kernel's form in a loop", loop(compiled_stable_ggx), needs="numba", ours=True),
-    *map(over_cosine, quadratures(kernels.ndf_ggx, reference.ndf_ggx.__wrapped__, 0.0, most=(60, 20))),
+    *over_cosine(quadratures(kernels.ndf_ggx, reference.ndf_ggx.__wrapped__, 0.0, (60, 15), NODES)),
 )
 
 FIELDS = (Field(BECKMANN, BECKMANN_METHODS), Field(GGX, GGX_METHODS))

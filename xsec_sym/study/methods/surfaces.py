@@ -15,7 +15,7 @@ from scipy import special
 from xsec_sym import kernels
 from xsec_sym.study.method import Argument, Columns, Field, Method, Quantity, along
 from xsec_sym.study.methods import smith
-from xsec_sym.study.methods.common import cosine, decades, facing, grazing, loop, near, quadratures
+from xsec_sym.study.methods.common import NODES, cosine, decades, facing, grazing, loop, near, quadratures
 from xsec_sym.study.methods.rings import clamped_cosine, even_orders
 from xsec_sym.study.references import surfaces as reference
 
@@ -158,7 +158,7 @@ BECKMANN_METHODS = (
     Method("compiled erfc", "with erfc, in a loop", loop(compiled_erfc), needs="numba"),
     Method("compiled, stable", "the kernel's quotient in a loop", loop(compiled_quotient), needs="numba", ours=True),
     with_ring_lemma(kernels.ndf_beckmann, (0.0,)),
-    *quadratures(kernels.ndf_beckmann, reference.ndf_beckmann.__wrapped__, 0.0, most=(60, 20)),
+    *quadratures(kernels.ndf_beckmann, reference.ndf_beckmann.__wrapped__, 0.0, most=(60, 15), nodes=NODES),
 )  # fmt: skip
 
 # --- GGX --------------------------------------------------------------------------------------------------
@@ -219,7 +219,7 @@ GGX_METHODS = (
     Method("compiled", "deon2016:25 in a loop", loop(compiled_ggx), needs="numba"),
     Method("compiled, stable", "the kernel's form in a loop", loop(compiled_stable_ggx), needs="numba", ours=True),
     with_ring_lemma(kernels.ndf_ggx, (0.0,)),
-    *quadratures(kernels.ndf_ggx, reference.ndf_ggx.__wrapped__, 0.0, most=(60, 20)),
+    *quadratures(kernels.ndf_ggx, reference.ndf_ggx.__wrapped__, 0.0, most=(60, 15), nodes=NODES),
 )
 
 # --- Kagiwada and Kalaba ----------------------------------------------------------------------------------
@@ -345,7 +345,7 @@ ELLIPSOIDAL_METHODS = (
         "compiled, stable", "the kernel's form in a loop", loop(compiled_stable_ellipsoidal), needs="numba", ours=True
     ),
     with_ring_lemma(kernels.ndf_ellipsoidal),
-    *quadratures(kernels.ndf_ellipsoidal, reference.ndf_ellipsoidal.__wrapped__, most=(60, 20)),
+    *quadratures(kernels.ndf_ellipsoidal, reference.ndf_ellipsoidal.__wrapped__, most=(60, 15), nodes=NODES),
 )
 
 FIELDS = (
