@@ -35,6 +35,13 @@ def beside_the_lit_cap(sign: float) -> Callable[[np.random.Generator, int], Colu
     return draw
 
 
+def on_the_edge(rng: np.random.Generator, n: int) -> Columns:
+    """|u| at the rounded sqrt(1 - u_n^2), or one place beside."""
+    x = rng.uniform(-1, 1, n)
+    edge = np.sqrt(1 - x * x)
+    return rng.choice([-1.0, 1.0], n) * np.clip(edge + rng.integers(-1, 2, n) * np.spacing(edge), 0, 1), x
+
+
 RING = Quantity(
     "sigma_dirac_ring",
     "cross-section of a ring of normals",
@@ -44,6 +51,7 @@ RING = Quantity(
     trouble={
         "nearly all lit": beside_the_lit_cap(1.0),
         "barely lit": beside_the_lit_cap(-1.0),
+        "edge": on_the_edge,
         "pole": lambda rng, n: (near(rng, n, -1.0, 1.0), rng.uniform(-1, 1, n)),
         "both near the pole": lambda rng, n: (near(rng, n, -1.0, 1.0), near(rng, n, -1.0, 1.0)),
         "grazing": lambda rng, n: (near(rng, n, 0.0, reach=20), rng.uniform(-1, 1, n)),
@@ -63,6 +71,12 @@ def printed_ring(u: np.ndarray, x: np.ndarray) -> np.ndarray:
     partly = (u < edge) & (u > -edge)
     arc = 2 * u * x * np.arccos(-u * x / height(u, x)) + 2 * np.sqrt(1 - u * u - x * x)
     return np.where(lit, 2 * np.pi * u * x, np.where(partly, arc, 0.0))
+
+
+def edge_included(u: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """The printed cases with one inequality, which is not strict: no place is without a case."""
+    arc = 2 * u * x * np.arccos(-u * x / height(u, x)) + 2 * np.sqrt(1 - u * u - x * x)
+    return np.where(np.abs(u) <= np.sqrt(1 - x * x), arc, 2 * np.pi * np.maximum(u * x, 0))
 
 
 def three_terms(u: np.ndarray, x: np.ndarray) -> np.ndarray:
@@ -189,6 +203,7 @@ def compiled_stable_ring(u: float, x: float) -> float:
 RING_METHODS = (
     Method("kernel", "deon2016:8.piecewise", lambda: kernels.sigma_dirac_ring, single=True, ours=True),
     Method("as printed", "deon2016:8.piecewise", lambda: printed_ring),
+    Method("edge included", "deon2016:8.piecewise with the edge itself", lambda: edge_included),
     Method("three terms", "deon2016:9", lambda: three_terms),
     Method("clamped arccosine", "deon2016:8.piecewise with clamped arguments", lambda: clamped),
     Method("two-argument arctangent", "acos(-a/b) = atan2(sqrt d, -a)", lambda: two_argument_arctangent),
