@@ -19,7 +19,7 @@ from xsec_sym.study.references import ring as by_definition
 
 BLOCK = 2**14
 # Of the quadrature over rings, where it is one of many methods.
-NODES = (8, 24, 72)
+NODES = (8, 48)
 COSINES = (0.0, 1e-3, 0.01, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.75, 0.9, 0.97, 0.999, 1.0)
 
 

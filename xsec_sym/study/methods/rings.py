@@ -230,7 +230,7 @@ RING_METHODS = (
         kind="arbitrary precision",
         curve=along(digits=(15, 30)),
         serial=True,
-        most=60,
+        most=30,
     ),
     Method("table", "bilinear interpolation", table, kind="table", curve=along(n=(33, 129, 513))),
     Method("compiled", "the arctangent's form in a loop", loop(compiled_ring), needs="numba"),
@@ -368,7 +368,7 @@ POWER_METHODS = (
         folds=True,
     ),
     Method("compiled series", "deon2016:T1.even.s in a loop", loop(compiled_power), kind="series", needs="numba"),
-    *quadratures(lambda x, p: x**p, lambda x, p: x ** int(p), most=(60, 15), nodes=NODES),
+    *quadratures(lambda x, p: x**p, lambda x, p: x ** int(p), most=(30, 10), nodes=NODES),
 )
 
 FIELDS = (Field(RING, RING_METHODS), Field(POWER, POWER_METHODS))

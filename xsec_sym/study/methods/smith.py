@@ -259,7 +259,7 @@ BECKMANN_METHODS = (
         needs="numba",
     ),
     Method("compiled, stable", "the kernel's quotient in a loop", loop(compiled_quotient), needs="numba", ours=True),
-    *over_cosine(quadratures(kernels.ndf_beckmann, reference.ndf_beckmann.__wrapped__, 0.0, (60, 15), NODES)),
+    *over_cosine(quadratures(kernels.ndf_beckmann, reference.ndf_beckmann.__wrapped__, 0.0, (30, 10), NODES)),
 )
 
 GGX_METHODS = (
@@ -274,7 +274,7 @@ GGX_METHODS = (
     Method("Mitsuba 3", "smith_g1", mitsuba("GGX"), serial=True, most=500, needs="mitsuba"),
     Method("compiled", "xsec:smith.ggx.lambda in a loop", loop(compiled_ggx), needs="numba"),
     Method("compiled, stable", "the kernel's form in a loop", loop(compiled_stable_ggx), needs="numba", ours=True),
-    *over_cosine(quadratures(kernels.ndf_ggx, reference.ndf_ggx.__wrapped__, 0.0, (60, 15), NODES)),
+    *over_cosine(quadratures(kernels.ndf_ggx, reference.ndf_ggx.__wrapped__, 0.0, (30, 10), NODES)),
 )
 
 FIELDS = (Field(BECKMANN, BECKMANN_METHODS), Field(GGX, GGX_METHODS))

@@ -35,7 +35,7 @@ def with_ring_lemma(ndf: Callable[..., Any], breakpoints: tuple[float, ...] = ()
         make,
         kind="quadrature",
         folds=True,
-        most=50,
+        most=25,
         ours=True,
     )
 
@@ -158,7 +158,7 @@ BECKMANN_METHODS = (
     Method("compiled erfc", "with erfc, in a loop", loop(compiled_erfc), needs="numba"),
     Method("compiled, stable", "the kernel's quotient in a loop", loop(compiled_quotient), needs="numba", ours=True),
     with_ring_lemma(kernels.ndf_beckmann, (0.0,)),
-    *quadratures(kernels.ndf_beckmann, reference.ndf_beckmann.__wrapped__, 0.0, most=(60, 15), nodes=NODES),
+    *quadratures(kernels.ndf_beckmann, reference.ndf_beckmann.__wrapped__, 0.0, most=(30, 10), nodes=NODES),
 )  # fmt: skip
 
 # --- GGX --------------------------------------------------------------------------------------------------
@@ -219,7 +219,7 @@ GGX_METHODS = (
     Method("compiled", "deon2016:25 in a loop", loop(compiled_ggx), needs="numba"),
     Method("compiled, stable", "the kernel's form in a loop", loop(compiled_stable_ggx), needs="numba", ours=True),
     with_ring_lemma(kernels.ndf_ggx, (0.0,)),
-    *quadratures(kernels.ndf_ggx, reference.ndf_ggx.__wrapped__, 0.0, most=(60, 15), nodes=NODES),
+    *quadratures(kernels.ndf_ggx, reference.ndf_ggx.__wrapped__, 0.0, most=(30, 10), nodes=NODES),
 )
 
 # --- Kagiwada and Kalaba ----------------------------------------------------------------------------------
@@ -331,13 +331,13 @@ ELLIPSOIDAL_METHODS = (
     Method("kernel", "deon2016:27.regular", lambda: kernels.sigma_ellipsoidal, single=True, ours=True),
     Method("as printed", "deon2016:27", lambda: ellipsoidal_printed),
     Method("regular at the pole", "deon2016:27.regular", lambda: ellipsoidal_regular),
-    Method("powers of b", "deon2016:T1.even.s", powers_of_b, kind="series", curve=along(n=(4, 8, 16, 32, 64, 128))),
+    Method("powers of b", "deon2016:T1.even.s", powers_of_b, kind="series", curve=along(n=(4, 16, 48))),
     Method(
         "Legendre series",
         "addition theorem",
         ellipsoidal_in_legendre,
         kind="series",
-        curve=along(n=(4, 8, 16, 32, 64)),
+        curve=along(n=(4, 16, 64)),
         folds=True,
     ),
     Method("compiled", "deon2016:27 in a loop", loop(compiled_ellipsoidal), needs="numba"),
@@ -345,7 +345,7 @@ ELLIPSOIDAL_METHODS = (
         "compiled, stable", "the kernel's form in a loop", loop(compiled_stable_ellipsoidal), needs="numba", ours=True
     ),
     with_ring_lemma(kernels.ndf_ellipsoidal),
-    *quadratures(kernels.ndf_ellipsoidal, reference.ndf_ellipsoidal.__wrapped__, most=(60, 15), nodes=NODES),
+    *quadratures(kernels.ndf_ellipsoidal, reference.ndf_ellipsoidal.__wrapped__, most=(30, 10), nodes=NODES),
 )
 
 FIELDS = (
