@@ -31,7 +31,7 @@ LOOSE = {
     "sigma_power": {"two plates": 0.7},
     "sigma_beckmann": {"Gaussian slopes": 0.05, "rational Lambda": 0.05, "GGX": 4.0, "spherical Gaussian": 0.6},
     "sigma_ggx": {"linear root": 0.2, "Beckmann": 0.8},
-    # what 48 terms leave of b = 0.6: 0.6^48 = 2e-11, over the powers' own small cross-sections
+    # 48 terms leave what b^48 times the next power's cross-section is, for b up to 0.6
     "sigma_ellipsoidal": {"powers of b": 2e-12},
     "lambda_beckmann": {
         "asymptotic series": np.inf,
