@@ -71,6 +71,8 @@ class Quantity:
     per_cell: points drawn in a cell of the set arguments, and in each cell of the running ones for every one of those.
     usual: ranges that scenes are made of, where the whole domain is much wider; charts show the errors there.
     references: the reference of columns of doubles at once, as doubles, where that is the better part of its cost.
+    embed: makes the running arguments of the methods out of those here, where they fill no box: a unit vector out of
+    two angles. Points and cells are in the latter; `given` is what methods and the reference get.
     """
 
     name: str
@@ -85,6 +87,7 @@ class Quantity:
     unit: str = ""
     about: str = ""
     references: Function | None = None
+    embed: Function | None = None
 
     @property
     def arguments(self) -> tuple[Argument, ...]:
@@ -106,6 +109,13 @@ class Quantity:
     def columns(self, rng: np.random.Generator, n: int) -> Columns:
         """n points anywhere in the domain, on which methods are timed."""
         return tuple(a.draw(rng, n) for a in self.arguments)
+
+    def given(self, columns: Columns, dtype: str = "float64") -> tuple[Columns, Columns]:
+        """The running and the set arguments of a method at these points, as numbers of `dtype`."""
+        n = len(self.running)
+        running = tuple(self.embed(*columns[:n])) if self.embed else columns[:n]
+        typed = [np.ascontiguousarray(column, dtype=dtype) for column in (*running, *columns[n:])]
+        return tuple(typed[: len(running)]), tuple(typed[len(running) :])
 
 
 @dataclass(frozen=True)
@@ -163,12 +173,21 @@ def one_by_one(function: Function) -> Function:
 
 # The module of `methods` for each quantity; in the order in which they are told.
 HOMES = {
+    "sigma_dirac_ring": "rings",
+    "sigma_power": "rings",
+    "sigma_beckmann": "surfaces",
+    "sigma_ggx": "surfaces",
+    "sigma_ellipsoidal": "surfaces",
     "sigma_spherical_gaussian": "spherical_gaussian",
-    "h_isotropic": "isotropic",
-    "brdf_isotropic": "isotropic",
-    "h_lambert_sphere": "h_lambert_sphere",
+    "lambda_beckmann": "smith",
+    "lambda_ggx": "smith",
+    "ssl": "squared_lobes",
+    "sel": "squared_lobes",
     "phase_lambert_sphere": "sphere_phase",
     "sample_lambert_sphere": "sphere_phase",
+    "h_isotropic": "isotropic",
+    "h_lambert_sphere": "h_lambert_sphere",
+    "brdf_isotropic": "isotropic",
     "brdf_lambert_sphere": "brdf_lambert_sphere",
     "albedo_lambert_sphere": "albedo_lambert_sphere",
     "albedo_lambert_sphere_inverse": "albedo_lambert_sphere",
