@@ -122,7 +122,7 @@ BOUNDS = {
     },
     "albedo_lambert_sphere": {
         "kernel": [(0, 2e-12)],
-        "fit": [(1e-8, 3e-5)],
+        "fit": [(1e-6, 2e-4)],
         "paper's fit": [(1e-4, 2e-2)],
         "paper's fit, compiled": [(1e-4, 2e-2)],
         "similarity": [(1e-3, 0.1)],
