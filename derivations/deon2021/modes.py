@@ -64,7 +64,8 @@ zeroth.measured(
 
 MIRRORED = (
     "the bracket of the mode at mu_o = -mu_i is the characteristic function, for order 1 up to a factor: what is "
-    "infinite there must cancel; this gives A and E of (38) as well; "
+    "infinite there must cancel; this gives A and E of (38) as well. The method by moments of H takes that for "
+    "granted, the one by transport knows nothing of it. "
 )
 
 project.measured(
@@ -90,6 +91,7 @@ project.measured(
 
 # --- the mode of order 2 --------------------------------------------------------------------------------
 
+LEAST = Rational(1, 100)
 single = 15 * c * (1 - mu_i**2) * (1 - mu_o**2) / (256 * pi * total)
 
 second.measured(
@@ -101,8 +103,23 @@ second.measured(
     within=Rational(1, 200),
     along=CROWDED,
     statement=True,
-    reading="the text says very weak, without a number; of what is scattered more than once it is at most 2.2 percent; "
-    + THREE_TERMS,
+    reading="the text says very weak, without a number; the mode of order 1, which it says not to be negligible, "
+    "reaches 10 percent; " + THREE_TERMS,
+)
+
+bracket = 207 + 135 * product**2 - 45 * (mu_i**2 + mu_o**2) + 256 * product
+second.measured(
+    "claim.second-order.multiple",
+    "of what is scattered more than once, the mode of order 2 is at most 2.2 percent of the mode of order 0",
+    left=(ModeLambertSphere(2, mu_i, mu_o, c) - single)
+    / (ModeLambertSphere(0, mu_i, mu_o, c) - c * bracket / (768 * pi * total)),
+    printed=0,
+    where=[interval(mu_i, LEAST, 1), interval(mu_o, LEAST, 1), interval(c, 5 * LEAST, 1)],
+    within=Rational(22, 1000),
+    along={**{v: LEAST + (1 - LEAST) * T**2 for v in (mu_i, mu_o)}, c: 1 - (1 - 5 * LEAST) * T**2},
+    statement=True,
+    reading="the text says very weak of this share as well. With a cosine below 0.01 or c below 0.05, too little "
+    "light is scattered more than once to leave ten digits of it; " + THREE_TERMS,
 )
 
 if __name__ == "__main__":
