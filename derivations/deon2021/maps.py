@@ -117,7 +117,7 @@ project.measured(
     where=[interval(c, 0, 1)],
     within=Rational(6, 1000),
     along={c: 1 - T**2},
-    reading="in c; the left side is c by either solver. The text has them as a map and its inverse, without an accuracy",
+    reading="in c; the left side is c by either solver. The text has them as map and inverse, without an accuracy",
 )
 project.measured(
     "lambert-sphere.albedo-maps.round-trip",
