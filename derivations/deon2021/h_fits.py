@@ -188,7 +188,7 @@ for name, index, printed in (
         where=[ALBEDO],
         exact=True,
         along={c: 1 - T**2},
-        reading=THREE_TERMS + "; as in `xsec:lambert-sphere.mirrored-0`",
+        reading=THREE_TERMS + "; it follows as xsec:lambert-sphere.relation-0 does",
     )
 
 zeroth.whole("38", "the constants A and E of the mode of order 0", ["38.A", "38.E"], left=symbols("A E")[0],

@@ -15,8 +15,11 @@ from xsec_sym.proof.digits import value
 from xsec_sym.proof.verify import verify
 
 OTHERWISE = {
-    **dict.fromkeys(("deon2021:1.1", "deon2021:5", "deon2021:11", "deon2021:14", "deon2021:20", "deon2021:34"),
-                    "misprint"),
+    **dict.fromkeys(("deon2021:1.1", "deon2021:5", "deon2021:11", "deon2021:14", "deon2021:34"), "misprint"),
+    **dict.fromkeys((f"deon2021:20.{part}" for part in ("elementary", 0, 1, 2)), "misprint"),
+    **dict.fromkeys((f"deon2021:20.{order}.conservative" for order in range(3)), "misprint"),
+    **dict.fromkeys(("deon2021:21", *(f"deon2021:22.{order}" for order in range(3))), "confirmed"),
+    **dict.fromkeys((f"xsec:h-lambert-sphere.dispersion.{order}" for order in range(3)), "confirmed"),
     **dict.fromkeys(
         (f"deon2021:claim.{slug}" for slug in
          ("mean-cosine", "no-forward", "three-terms", "no-higher-mode", "mirror-spheres")), "claim-holds"

@@ -14,6 +14,7 @@ from xsec_sym.exact.distributions import (
     ggx,
     spherical_gaussian,
 )
+from xsec_sym.exact.h_lambert_sphere import DispersionLambertSphere, HLambertTransform
 from xsec_sym.exact.half_space import HIsotropic, HMoment, HTransform, wiener_hopf
 from xsec_sym.exact.lambert_sphere import CharacteristicTrial, DispersionTrial, HTrial, PhaseLambertSphere
 from xsec_sym.exact.lobes import LobeGGX, ggx_anisotropic
@@ -38,9 +39,11 @@ __all__ = [
     "BelowLogistic",
     "BelowUniform",
     "CharacteristicTrial",
+    "DispersionLambertSphere",
     "DispersionTrial",
     "HIsotropic",
     "HLambertSphere",
+    "HLambertTransform",
     "HMoment",
     "HTransform",
     "HTrial",

@@ -11,6 +11,7 @@ error is bounded), decimal digits from the closed form of Stibbs and Weir and mp
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
@@ -99,29 +100,23 @@ def _balls(e: Any, build: Any) -> Closure:
 # --- digits -----------------------------------------------------------------------------------------------------
 
 
-class _StibbsWeir:
-    """H by their closed form, with whole numbers in place of fractions: only the absolute error of log H matters.
+class StibbsWeir:
+    """H by their closed form, of K at tan t.
+
+    Whole numbers take the place of fractions: only the absolute error of log H matters.
 
     In y = log(tan t) the integrand is log(1 - a t cot t) sech(y + log u), analytic for |Im y| < pi / 2, so that the
     trapezoidal rule of step h is wrong by about exp(-pi^2 / h).
     """
 
-    def __init__(self, a: mpf) -> None:
+    def __init__(self, of: Callable[[mpf], mpf]) -> None:
         self.bits = bits = int((mp.dps - 8) * mpf("3.33"))  # what `value` works with, less most of its reserve
         nats = bits * mp.log(2)
         self.h = mpf("0.9") * mp.pi**2 / nats
         self.low = -int(nats / self.h)
         ys = [k * self.h for k in range(self.low, -self.low)]  # beyond, the logarithm is negligible, or its weight
-        self.logs = [int(mp.ldexp(mp.log(self._of(mp.exp(y), a)), bits)) for y in ys]
+        self.logs = [int(mp.ldexp(mp.log(of(mp.exp(y))), bits)) for y in ys]
         self.fall = int(mp.ldexp(mp.exp(-self.h), bits))
-
-    @staticmethod
-    def _of(tan: mpf, a: mpf) -> mpf:
-        """1 - a t cot t; for a = 1 it would cancel at small t."""
-        t = mp.atan(tan)
-        if t > mpf(2) ** -20:
-            return 1 - a * t / tan
-        return (1 - a) + a * (t**2 / 3 + t**4 / 45 + 2 * t**6 / 945 + t**8 / 4725)
 
     def __call__(self, u: mpf) -> mpf:
         centre = -mp.log(u) / self.h
@@ -140,9 +135,17 @@ class _StibbsWeir:
         return total
 
 
+def _isotropic(tan: mpf, a: mpf) -> mpf:
+    """1 - a t cot t; for a = 1 it would cancel at small t."""
+    t = mp.atan(tan)
+    if t > mpf(2) ** -20:
+        return 1 - a * t / tan
+    return (1 - a) + a * (t**2 / 3 + t**4 / 45 + 2 * t**6 / 945 + t**8 / 4725)
+
+
 @lru_cache(maxsize=32)
-def _stibbs_weir(a: mpf, bits: int) -> _StibbsWeir:
-    return _StibbsWeir(a)
+def _stibbs_weir(a: mpf, bits: int) -> StibbsWeir:
+    return StibbsWeir(lambda tan: _isotropic(tan, a))
 
 
 def _digits(e: Any, slots: Slots) -> Run:
@@ -169,4 +172,4 @@ for _head in (HIsotropic, HTransform, HMoment):
     SPECIAL[_head] = _balls
     HANDLERS[_head] = _digits
 
-__all__ = ["HIsotropic", "HMoment", "HTransform", "dispersion", "wiener_hopf"]
+__all__ = ["HIsotropic", "HMoment", "HTransform", "StibbsWeir", "dispersion", "wiener_hopf"]

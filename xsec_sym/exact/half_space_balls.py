@@ -14,6 +14,9 @@ times the mean of their sizes. Since |1 - a + p| >= |p| / sqrt 2 and |1 + p| <= 
 min(1, |t|^2) / 23. From above |1 + p| >= cos(3 pi / 8) (1 + |p|) gives |K| <= 2.62. The argument of K is at most
 3 pi / 4. So |log K| <= 5.5 + 2 max(0, -log|t|).
 
+At its end the sum takes |log K| <= pi / t for real t > 0. Another K that keeps within these bounds may take the place
+of this one (`h_lambert_sphere.py`).
+
 Along the convolution this gives |H(z)| <= 9 max(1, |z|) for |arg z| <= 3 pi / 8, as int_0^oo y sech y dy < 1.84.
 """
 
@@ -21,6 +24,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache, wraps
+from typing import Any
 
 from flint import arb, arb_mat, ctx
 
@@ -30,6 +34,7 @@ RATIO = 27  # the width of a panel over the step
 SHIFT = "1.178"  # a little less than 3 pi / 8, the half width of the strip in which all is bounded
 LARGEST = 9  # of |H| / max(1, |z|) in that strip
 LEVELS = (76, 134, 200)  # bits that are worked with, so that the meshes are few; their cost grows with the third power
+LogK = Callable[[arb, arb], arb]  # log K of t and a, the bounds above holding for it
 SMALL = arb(2) ** -6  # below this t, 1 - arctan(t) / t cancels and is summed as a series
 
 
@@ -118,52 +123,52 @@ def _log_dispersion(t: arb, a: arb) -> arb:
 
 
 @lru_cache(maxsize=64)
-def _found(middle: arb, radius: arb, bits: int) -> dict[int, arb]:
+def _found(log_k: LogK, middle: arb, radius: arb, bits: int) -> dict[int, arb]:
     return {}
 
 
-def _logarithms(a: arb, low: int, high: int) -> list[arb]:
+def _logarithms(log_k: LogK, a: arb, low: int, high: int) -> list[arb]:
     """log K(exp(k h)) for low <= k < high."""
-    m, known = mesh(ctx.prec), _found(arb(a.mid()), arb(a.rad()), ctx.prec)
+    m, known = mesh(ctx.prec), _found(log_k, arb(a.mid()), arb(a.rad()), ctx.prec)
     missing = [k for k in range(low, high) if k not in known]
     if missing:
         step, t = m.h.exp(), (missing[0] * m.h).exp()
         for k in range(missing[0], missing[-1] + 1):
             if k not in known:
-                known[k] = _log_dispersion(t, a)
+                known[k] = log_k(t, a)
             t *= step
     return [known[k] for k in range(low, high)]
 
 
 @lru_cache(maxsize=64)
-def _values(middle: arb, radius: arb, bits: int) -> list[list[arb]]:
+def _values(log_k: LogK, middle: arb, radius: arb, bits: int) -> list[list[arb]]:
     """H at every node of the mesh, by rows as its `places`."""
     m = mesh(bits)
     window = m.below + m.above + 1
-    logs = _logarithms(arb(middle, radius), -m.below, m.above + 1 + (m.panels - 1) * RATIO)
+    logs = _logarithms(log_k, arb(middle, radius), -m.below, m.above + 1 + (m.panels - 1) * RATIO)
     # on panel p, y - s = k h - offset with y = (k + p RATIO) h
     sums = m.kernel * arb_mat([[logs[p * RATIO + k] for p in range(m.panels)] for k in range(window)])
     error = m.error(arb(1))
     return [[(error - sums[i, p]).exp() for p in range(m.panels)] for i in range(m.count)]
 
 
-def _at_a_level(f: Callable[[arb, arb], arb]) -> Callable[[arb, arb], arb]:
+def _at_a_level(f: Callable[..., arb]) -> Callable[..., arb]:
     """f at the next level of precision; beyond the last there is no enclosure."""
 
     @wraps(f)
-    def worked(x: arb, a: arb) -> arb:
+    def worked(x: arb, a: arb, *rest: Any) -> arb:
         bits = next((level for level in LEVELS if level >= ctx.prec), None)
         if bits is None:
             return arb("nan")
         with precision(bits):
-            return f(x, a)
+            return f(x, a, *rest)
 
     return worked
 
 
 @_at_a_level
-def value(u: arb, a: arb) -> arb:
-    """H(u) for u > 0 and 0 <= a <= 1, from the Wiener-Hopf factor.
+def value(u: arb, a: arb, log_k: LogK = _log_dispersion) -> arb:
+    """H(u) for u > 0 and 0 <= a <= 1, from the Wiener-Hopf factor of K, the isotropic one or another one.
 
     >>> from flint import arb
     >>> value(arb(3), arb(0)).overlaps(arb(1))
@@ -176,16 +181,16 @@ def value(u: arb, a: arb) -> arb:
     first = int(float((s / m.h).floor().mid()))
     step, e = m.h.exp(), ((first - m.below) * m.h - s).exp()
     total = arb(0)
-    for log_k in _logarithms(a, first - m.below, first + m.above + 1):
-        total += log_k / (e + 1 / e)
+    for logarithm in _logarithms(log_k, a, first - m.below, first + m.above + 1):
+        total += logarithm / (e + 1 / e)
         e *= step
     return (m.error(u) - m.h / arb.pi() * total).exp()
 
 
-def _weighted(a: arb) -> Iterator[tuple[arb, arb]]:
+def _weighted(a: arb, log_k: LogK) -> Iterator[tuple[arb, arb]]:
     """Every node v, with H(v) dv."""
     m = mesh(ctx.prec)
-    values = _values(arb(a.mid()), arb(a.rad()), ctx.prec)
+    values = _values(log_k, arb(a.mid()), arb(a.rad()), ctx.prec)
     for weight, places, row in zip(m.weights, m.places, values, strict=True):
         for v, h in zip(places, row, strict=True):
             yield v, weight * v * h
@@ -198,8 +203,8 @@ def _summed(terms: Iterable[arb], size: arb, rest: arb) -> arb:
 
 
 @_at_a_level
-def transform(u: arb, a: arb) -> arb:
-    """The integral of H(v) / (u + v) over v from 0 to 1, for u > 0 and 0 <= a <= 1.
+def transform(u: arb, a: arb, n: int = 0, log_k: LogK = _log_dispersion) -> arb:
+    """The integral of v^n H(v) / (u + v) over v from 0 to 1, for u > 0 and 0 <= a <= 1.
 
     >>> from flint import arb
     >>> transform(arb(2), arb(0)).overlaps(arb(1.5).log())
@@ -210,7 +215,8 @@ def transform(u: arb, a: arb) -> arb:
     m = mesh(ctx.prec)
     # Re v > 0 on the ellipses, so that |u + v| exceeds both u and |v|
     most = arb.min(arb(1), m.overshoot / u)
-    return _summed((f / (u + v) for v, f in _weighted(a)), LARGEST * m.overshoot * most, LARGEST * m.end / u)
+    size, rest = LARGEST * m.overshoot ** (n + 1) * most, LARGEST * m.end ** (n + 1) / u
+    return _summed((f * v**n / (u + v) for v, f in _weighted(a, log_k)), size, rest)
 
 
 @_at_a_level
@@ -220,4 +226,4 @@ def moment(n: arb, a: arb) -> arb:
         return arb("nan")
     m = mesh(ctx.prec)
     size = LARGEST * m.overshoot ** (n + 2)
-    return _summed((f * v**n for v, f in _weighted(a)), size, LARGEST * m.end ** (n + 1))
+    return _summed((f * v**n for v, f in _weighted(a, _log_dispersion)), size, LARGEST * m.end ** (n + 1))

@@ -135,7 +135,8 @@ class ModeConstant(Solved):
 def _mode(transport: bool) -> Route:
     def at(order: int, c: float, mu_i: Array, mu_o: Array) -> Array:
         phis = []
-        for mu in (mu_i, mu_o):
+        for cosines in (mu_i, mu_o):
+            mu, place = np.unique(cosines, return_inverse=True)  # many pairs of few directions, under an integral
             if transport:
                 solution = three_terms.transport(order, c)
                 orders, phi = np.array(solution[0]), three_terms.anywhere(order, c, solution, mu)
@@ -144,7 +145,7 @@ def _mode(transport: bool) -> Route:
                 orders = np.arange(order, 3)
                 outer = three_terms.by_fock(order, mu, c) * np.sqrt(1 - mu**2) ** order
                 phi = outer * (q @ mu ** np.arange(3 - order)[:, None])
-            phis.append(phi)
+            phis.append(phi[:, place])
         weights = np.array(three_terms.FLIGHT)[orders] * (-1.0) ** orders
         scale = (1 if order == 0 else 2) * c / (4 * np.pi)
         return scale * np.einsum("l,ln,ln->n", weights, *phis) / (mu_i + mu_o)
