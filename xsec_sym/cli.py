@@ -12,6 +12,8 @@ from typing import Any, NoReturn, TextIO
 import click
 
 INTERRUPTED = 130
+# Work is shared out to processes, whose small matrices threads would only slow down; to be set before NumPy is loaded.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 
 class _Program(click.Group):
