@@ -207,6 +207,12 @@ def kernel(accuracy: str) -> Callable[..., Any]:
     return lambda u, alpha: kernels.sigma_spherical_gaussian(u, alpha, accuracy=accuracy)
 
 
+def compiled(threads: int) -> Callable[..., Any]:
+    from xsec_sym.kernels import compiled as loops
+
+    return lambda u, alpha: loops.sigma_spherical_gaussian(u, alpha, threads=threads)
+
+
 RIVALS = {
     "punctual": (punctual, "irradiance of a lobe as that of a direction"),
     "inner product": (inner_product, "product with a cosine lobe of 1.17 and 2.133"),
@@ -225,6 +231,16 @@ METHODS = (
         curve=along(tol=(1e-3, 1e-5, 1e-7, 1e-10, 5e-16, None)),
         folds=True,
         single=True,
+        ours=True,
+    ),
+    Method(
+        "kernel, compiled",
+        "xsec:sg-integral",
+        compiled,
+        kind="compiled loop",
+        curve=along(threads=(1,)),
+        single=True,
+        needs="numba",
         ours=True,
     ),
     Method(
