@@ -1,0 +1,6 @@
+"""From a scene's needs to the cheapest kernels that meet them: measured, chosen, written as one module, and checked."""
+
+
+
+
+
