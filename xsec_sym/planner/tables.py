@@ -23,8 +23,6 @@ DEGREES = (1, 2, 3, 5)
 COUNTS = (4, 8, 16, 32, 64, 128, 256, 512, 1024)
 # Where a polynomial is compared with what it stands for, between its nodes, in a piece and in the whole.
 PROBES, PROBES_OF_ALL = 5, 200
-# The least relative error that a table of doubles is made for.
-LEAST = 4e-16
 FORMS = ("value", "logarithm")
 VARIABLES = ("x", "half angle")
 Function = Callable[[np.ndarray], np.ndarray]
@@ -69,7 +67,26 @@ class Table:
         return np.exp(total) if self.form == "logarithm" else total
 
 
-def tables(function: Function, log: Function | None, low: float, high: float, error: str, tol: float) -> Iterator[Table]:
+@dataclass(frozen=True)
+class Need:
+    """The largest error, relative or absolute; values below `tiny` only have to be as small."""
+
+    error: str
+    tolerance: float
+    tiny: float = 1e-300
+
+    def allowed(self, form: str, values: np.ndarray) -> np.ndarray:
+        """What the polynomial may be off by, where its right values are these."""
+        flat = np.full_like(values, self.tolerance)
+        if form == "value":
+            return flat if self.error == "absolute" else self.tolerance * np.maximum(np.abs(values), self.tiny)
+        if self.error == "relative":
+            return flat + np.maximum(np.log(self.tiny) - values, 0.0)
+        with np.errstate(over="ignore"):
+            return self.tolerance * np.exp(-values)
+
+
+def tables(function: Function, log: Function, low: float, high: float, need: Need) -> Iterator[Table]:
     """Tables that keep to the tolerance: of each form the shortest polynomial, and for each degree the fewest pieces.
 
     function, log: the values of the kernel and their logarithms, of vectors.
@@ -77,17 +94,17 @@ def tables(function: Function, log: Function | None, low: float, high: float, er
     if not low < high:
         return
     for variable in VARIABLES:
-        within = low, high
+        ends = np.array([low, high])
         if variable == "half angle":
             if not -1 <= low < high <= 1:
                 continue
-            within = tuple(float(runtime.half_angle(np.float64(end))) for end in within)
+            ends = runtime.half_angle(ends)
         for form in FORMS:
-            if (of := function if form == "value" else log) is not None:
-                of_it = _in_variable(of, variable, low, high)
-                yield from _whole(form, variable, of_it, *within, error, tol)
-                for degree in DEGREES:
-                    yield from _pieces(form, variable, of_it, *within, error, tol, degree)
+            of = _in_variable(function if form == "value" else log, variable, low, high)
+            start, end = ends.tolist()
+            yield from _whole(form, variable, of, start, end, need)
+            for degree in DEGREES:
+                yield from _pieces(form, variable, of, start, end, need, degree)
 
 
 def _in_variable(of: Function, variable: str, low: float, high: float) -> Function:
@@ -97,18 +114,7 @@ def _in_variable(of: Function, variable: str, low: float, high: float) -> Functi
     return lambda q: of(np.clip(2 * q / (1 + q * q), low, high))
 
 
-def _allowed(form: str, error: str, tol: float, values: np.ndarray) -> np.ndarray:
-    """What the polynomial may be off by, where its right values are these."""
-    if form == "logarithm":
-        with np.errstate(under="ignore"):
-            # of a sum of a logarithm the rounding counts as well
-            return tol + 0 * values if error == "relative" else tol / np.maximum(np.exp(values), 1e-300)
-    return tol * np.abs(values) if error == "relative" else tol + 0 * values
-
-
-def _whole(
-    form: str, variable: str, of: Function, low: float, high: float, error: str, tol: float
-) -> Iterator[Table]:
+def _whole(form: str, variable: str, of: Function, low: float, high: float, need: Need) -> Iterator[Table]:
     x = low + (high - low) * 0.5 * (1 - np.cos(np.linspace(0, np.pi, PROBES_OF_ALL)))
     right = of(x)
     if not np.isfinite(right).all():
@@ -118,19 +124,19 @@ def _whole(
         nodes = np.polynomial.chebyshev.chebpts1(degree + 1)
         series = np.polynomial.chebyshev.chebfit(nodes, of(low + (nodes + 1) / scale), degree)
         table = Table(form, variable, low, scale, np.polynomial.chebyshev.cheb2poly(series)[::-1])
-        if len(table.rows) == degree + 1 and _good(table, x, right, error, tol):
+        if len(table.rows) == degree + 1 and _good(table, x, right, need):
             yield table
             return
 
 
-def _good(table: Table, x: np.ndarray, right: np.ndarray, error: str, tol: float) -> bool:
+def _good(table: Table, x: np.ndarray, right: np.ndarray, need: Need) -> bool:
     evaluate = runtime.piecewise if table.pieces > 1 else runtime.polynomial
     found = evaluate(x, table.low, table.scale, table.rows)
-    return bool(np.all(np.abs(found - right) <= _allowed(table.form, error, tol, right)))
+    return bool(np.all(np.abs(found - right) <= need.allowed(table.form, right)))
 
 
 def _pieces(
-    form: str, variable: str, of: Function, low: float, high: float, error: str, tol: float, degree: int
+    form: str, variable: str, of: Function, low: float, high: float, need: Need, degree: int
 ) -> Iterator[Table]:
     nodes = np.polynomial.chebyshev.chebpts1(degree + 1)
     matrix = np.linalg.inv(np.polynomial.chebyshev.chebvander(nodes, degree))
@@ -151,7 +157,7 @@ def _pieces(
         table = Table(form, variable, low, scale, np.ascontiguousarray(np.append(rows, last, axis=1)))
         x = np.append(low, (low + (np.arange(count) + between) / scale).ravel())
         right = of(x)
-        if np.isfinite(right).all() and _good(table, x, right, error, tol):
+        if np.isfinite(right).all() and _good(table, x, right, need):
             yield table
             return
 
