@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from xsec_sym.export.source import _STANDARD, ALLOWED, OURS, Entangled, joined
-from xsec_sym.planner.modules import Module, Use, read, replaced, uses
+from xsec_sym.planner.modules import Module, Use, read, replaced
 
 WIDTH = 120
 
@@ -78,8 +78,8 @@ class Bundle:
         if home not in self._modules:
             self._modules.append(home)
         first, last = module.segment(node)
-        said = "\n".join(module.text.splitlines()[first - 1 : last])
-        said = replaced(said, first, self._changes(module, uses(node), {}))
+        said = "\n".join(module.lines[first - 1 : last])
+        said = replaced(said, first, self._changes(module, module.uses(node), {}))
         if isinstance(node, ast.FunctionDef | ast.ClassDef) and self._named[home, name] != name:
             said = said.replace(f"{_word(node)} {name}", f"{_word(node)} {self._named[home, name]}", 1)
         self._said[home, node.lineno] = said
@@ -173,7 +173,7 @@ class Bundle:
         bound |= {free: name for free, cell in cells.items() if cell.cell_contents is found}
         if found.__defaults__ or found.__kwdefaults__:
             raise Entangled(f"{name} has arguments with defaults")
-        said = replaced("\n".join(lines), first, self._changes(module, uses(node), bound))
+        said = replaced("\n".join(lines), first, self._changes(module, module.uses(node), bound))
         self._bindings.append(_defined(said, node, name))
         return name
 
@@ -266,9 +266,8 @@ def _located(module: Module, code: CodeType) -> tuple[ast.FunctionDef | ast.Lamb
     """Where a function of this code stands in its module."""
     found = [
         n
-        for n in ast.walk(ast.parse(module.text))
-        if isinstance(n, ast.FunctionDef | ast.Lambda)
-        and (n.name if isinstance(n, ast.FunctionDef) else "<lambda>") == code.co_name
+        for n in module.functions
+        if (n.name if isinstance(n, ast.FunctionDef) else "<lambda>") == code.co_name
         and n.lineno == code.co_firstlineno
         and [a.arg for a in n.args.args] == list(code.co_varnames[: code.co_argcount])
     ]
@@ -281,7 +280,7 @@ def _located(module: Module, code: CodeType) -> tuple[ast.FunctionDef | ast.Lamb
     if len(found) != 1:
         raise Entangled(f"the source of {code.co_name} in {module.name} is not found, or decorated")
     node = found[0]
-    return node, node.lineno, module.text.splitlines()[node.lineno - 1 : node.end_lineno]
+    return node, node.lineno, module.lines[node.lineno - 1 : node.end_lineno]
 
 
 def _defined(said: str, node: ast.FunctionDef | ast.Lambda, name: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -34,10 +34,19 @@ class Module:
     parts: dict[str, ast.stmt]
     ours: dict[str, tuple[str, str]]
     imports: dict[str, str]
+    functions: list[ast.FunctionDef | ast.Lambda] = field(default_factory=list)
+    lines: list[str] = field(default_factory=list)
+    _uses: dict[int, list[Use]] = field(default_factory=dict)
+
+    def uses(self, node: ast.stmt | ast.Lambda) -> list[Use]:
+        """As `uses`, of a node of this module; kept."""
+        if id(node) not in self._uses:
+            self._uses[id(node)] = uses(node)
+        return self._uses[id(node)]
 
     def segment(self, node: ast.stmt) -> tuple[int, int]:
         """The first line and the last of a statement, from 1 on, with its decorators and the comment above."""
-        lines = self.text.splitlines()
+        lines = self.lines
         first = min([node.lineno, *(d.lineno for d in getattr(node, "decorator_list", []))])
         while first > 1 and lines[first - 2].startswith("#") and not lines[first - 2].startswith("# ---"):
             first -= 1
@@ -50,8 +59,10 @@ def read(name: str) -> Module:
     if spec is None or not spec.origin:
         raise Entangled(f"there is no module {name}")
     text = Path(spec.origin).read_text(encoding="utf-8")
-    module = Module(name, text, {}, {}, {})
-    for node in ast.parse(text).body:
+    module = Module(name, text, {}, {}, {}, lines=text.splitlines())
+    tree = ast.parse(text)
+    module.functions = [n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef | ast.Lambda)]
+    for node in tree.body:
         if isinstance(node, ast.Import | ast.ImportFrom):
             learn(module, node)
         else:

@@ -249,7 +249,8 @@ def _judged(
     if why := writing.reason_not_to_write(candidate):
         return why, candidate.error
     if chosen is not None:
-        return f"slower than {chosen[0].name}", candidate.error
+        off = candidate.error is not None and not candidate.error <= material.tolerance
+        return f"slower than {chosen[0].name}" + ", and its error is too large" * off, candidate.error
     error = candidate.error
     if error is None or not MARGIN * error <= material.tolerance:
         # cells are wider than the ranges
