@@ -23,7 +23,7 @@ from xsec_sym.study.points import TINY, Points, right, within
 
 # What is left of a tolerance for errors between the points that were tried.
 MARGIN = 2.0
-PROBES, FRESH, IN_TROUBLE = 300, 400, 24
+PROBES, FRESH, IN_TROUBLE = 200, 300, 12
 PROBE_SEED, FRESH_SEED = 11, 1213
 # Half a place of a float32, where a double is rounded to one.
 ROUNDED = 6e-8
@@ -39,7 +39,8 @@ class Stale(ValueError):
 class Candidate:
     """A way to compute a material, `ns` nanoseconds a value and `setup` seconds at first.
 
-    error: the largest stored one over the ranges, infinite for a failure, None where nothing was stored.
+    error: the largest stored one over the ranges, infinite for a failure, None where nothing was stored; least: the
+    largest found between a table and its kernel.
     method and parameters, or a table, or a number where nothing is left to vary.
     """
 
@@ -54,6 +55,7 @@ class Candidate:
     parameters: Mapping[str, Any] | None = None
     table: Table | None = None
     number: float | None = None
+    least: float = 0.0
 
     @property
     def cost(self) -> float:
@@ -297,4 +299,5 @@ def _tabled(material: Material, kernel: Candidate, costs: Mapping[str, Any] | No
     stored = dict(costs) if costs else None
     for table in tables.tables(value, log, *material.ranges[name], need):
         ns, setup = tables.cost(table, material.evaluations, stored)
-        yield Candidate(material, table.name, kernel.source, kernel.model, ns, setup, table=table)
+        off = table.part * need.tolerance
+        yield Candidate(material, table.name, kernel.source, kernel.model, ns, setup, least=off, table=table)

@@ -7,6 +7,7 @@ import math
 import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -208,7 +209,8 @@ def _chosen(
         kernel = general(registered(material.quantity.name), material, data)
     except Stale as error:
         raise BadScene(str(error)) from None
-    probes, fresh = points(material, PROBE_SEED, PROBES), points(material, FRESH_SEED, FRESH)
+    # the first are only needed where the stored cells are too wide
+    probes, fresh = cache(lambda: points(material, PROBE_SEED, PROBES)), points(material, FRESH_SEED, FRESH)
     rejected: list[Rejected] = []
     best: tuple[float, str] | None = None
     chosen: tuple[Candidate, float] | None = None
@@ -243,7 +245,7 @@ def _with_kernel_first(every: list[Candidate], kernel: Candidate) -> list[Candid
 
 
 def _judged(
-    material: Material, candidate: Candidate, probes: Points, fresh: Points, chosen: tuple[Candidate, float] | None
+    material: Material, candidate: Candidate, probes: Callable[[], Points], fresh: Points, chosen: tuple[Candidate, float] | None
 ) -> tuple[str, float | None]:
     """Why a candidate is turned down, or nothing, and its error; with the margin where it is not."""
     if why := writing.reason_not_to_write(candidate):
@@ -254,7 +256,7 @@ def _judged(
     error = candidate.error
     if error is None or not MARGIN * error <= material.tolerance:
         # cells are wider than the ranges
-        error = largest(material, candidate.values(probes.columns), probes)
+        error = max(candidate.least, largest(material, candidate.values(probes().columns), probes()))
         if not MARGIN * error <= material.tolerance:
             return "its error is too large", error
     module = loaded(writing.module([candidate], [error], [math.nan], material.name))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -45,6 +45,8 @@ class Table:
     low: float
     scale: float
     rows: np.ndarray
+    # the largest deviation from the kernel that was found while it was made, as a part of what is allowed
+    part: float = 1.0
 
     @property
     def degree(self) -> int:
@@ -124,15 +126,18 @@ def _whole(form: str, variable: str, of: Function, low: float, high: float, need
         nodes = np.polynomial.chebyshev.chebpts1(degree + 1)
         series = np.polynomial.chebyshev.chebfit(nodes, of(low + (nodes + 1) / scale), degree)
         table = Table(form, variable, low, scale, np.polynomial.chebyshev.cheb2poly(series)[::-1])
-        if len(table.rows) == degree + 1 and _good(table, x, right, need):
-            yield table
+        good = _judged(table, x, right, need) if len(table.rows) == degree + 1 else None
+        if good:
+            yield good
             return
 
 
-def _good(table: Table, x: np.ndarray, right: np.ndarray, need: Need) -> bool:
+def _judged(table: Table, x: np.ndarray, right: np.ndarray, need: Need) -> Table | None:
+    """The table with its deviation at points between the nodes, if that is allowed."""
     evaluate = runtime.piecewise if table.pieces > 1 else runtime.polynomial
     found = evaluate(x, table.low, table.scale, table.rows)
-    return bool(np.all(np.abs(found - right) <= need.allowed(table.form, right)))
+    part = float(np.max(np.abs(found - right) / need.allowed(table.form, right)))
+    return replace(table, part=part) if part <= 1 else None
 
 
 def _pieces(
@@ -157,8 +162,9 @@ def _pieces(
         table = Table(form, variable, low, scale, np.ascontiguousarray(np.append(rows, last, axis=1)))
         x = np.append(low, (low + (np.arange(count) + between) / scale).ravel())
         right = of(x)
-        if np.isfinite(right).all() and _good(table, x, right, need):
-            yield table
+        good = _judged(table, x, right, need) if np.isfinite(right).all() else None
+        if good:
+            yield good
             return
 
 
