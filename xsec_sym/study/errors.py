@@ -33,12 +33,11 @@ class Errors:
 
 def values(quantity: Quantity, method: Method, parameters: Mapping[str, Any], columns: Columns, dtype: str) -> Any:
     """What the method returns there, in float64; one that folds is made anew for each choice of the set arguments."""
-    typed = tuple(np.ascontiguousarray(c, dtype=dtype) for c in columns)
+    running, fixed = quantity.given(columns, dtype)
     with np.errstate(all="ignore"):
         if not (method.folds and quantity.set):
-            return np.asarray(method.function(parameters)(*typed), float)
-        running, fixed = typed[: len(quantity.running)], typed[len(quantity.running) :]
-        found = np.full(typed[0].shape, np.nan)
+            return np.asarray(method.function(parameters)(*running, *fixed), float)
+        found = np.full(running[0].shape, np.nan)
         for choice in dict.fromkeys(zip(*fixed, strict=True)):
             here = np.logical_and.reduce([column == value for column, value in zip(fixed, choice, strict=True)])
             try:

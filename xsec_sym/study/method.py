@@ -68,7 +68,8 @@ class Quantity:
     trouble: named neighbourhoods where methods are known to fail; each draws about n points, as columns.
     typical: values of the set arguments at which constant ones are timed.
     per_cell: points drawn in a cell of the set arguments, and in each cell of the running ones for every one of those.
-    steps: by how much an argument is moved for the condition number, relatively; 0 leaves it out.
+    embed: makes the running arguments of the methods out of those here, where they fill no box: a unit vector out of
+    two angles. Points and cells are in the latter; `given` is what methods and the reference get.
     """
 
     name: str
@@ -81,6 +82,7 @@ class Quantity:
     per_cell: tuple[int, int] = (2, 2)
     unit: str = ""
     about: str = ""
+    embed: Function | None = None
 
     @property
     def arguments(self) -> tuple[Argument, ...]:
@@ -93,6 +95,13 @@ class Quantity:
     def columns(self, rng: np.random.Generator, n: int) -> Columns:
         """n points anywhere in the domain, on which methods are timed."""
         return tuple(a.draw(rng, n) for a in self.arguments)
+
+    def given(self, columns: Columns, dtype: str = "float64") -> tuple[Columns, Columns]:
+        """The running and the set arguments of a method at these points, as numbers of `dtype`."""
+        n = len(self.running)
+        running = tuple(self.embed(*columns[:n])) if self.embed else columns[:n]
+        typed = [np.ascontiguousarray(column, dtype=dtype) for column in (*running, *columns[n:])]
+        return tuple(typed[: len(running)]), tuple(typed[len(running) :])
 
 
 @dataclass(frozen=True)
@@ -151,6 +160,15 @@ def one_by_one(function: Function) -> Function:
 # The module of `methods` for each quantity; in the order in which they are told.
 HOMES = {
     "sigma_spherical_gaussian": "spherical_gaussian",
+    "sigma_dirac_ring": "rings",
+    "sigma_power": "rings",
+    "sigma_beckmann": "surfaces",
+    "sigma_ggx": "surfaces",
+    "sigma_ellipsoidal": "surfaces",
+    "lambda_beckmann": "smith",
+    "lambda_ggx": "smith",
+    "ssl": "squared_lobes",
+    "sel": "squared_lobes",
 }
 
 

@@ -75,7 +75,8 @@ def _drawn(
 def right(quantity: Quantity, label: str, columns: Columns, dtype: str = "float64", jobs: int = 1) -> Points:
     """The points as numbers of `dtype`, with the reference's values."""
     columns = tuple(np.asarray(c, dtype).astype(np.float64) for c in columns)
-    rows = list(zip(*columns, strict=True))
+    running, fixed = quantity.given(columns, dtype)
+    rows = list(zip(*running, *fixed, strict=True))
     parts = [rows[k : k + PARTS] for k in range(0, len(rows), PARTS)]
     done = Parallel(n_jobs=jobs)(delayed(_values)(quantity.reference, part) for part in parts)
     pairs = np.array([pair for part in done for pair in part]).reshape(-1, 2)

@@ -75,10 +75,10 @@ def times(
     for n in (10, *sizes) if method.serial else sizes:
         if (method.serial and n > 10**3) or cost * n > 3e9:
             break
-        columns = [c.astype(dtype) for c in quantity.columns(rng, n)]
-        running = columns[: len(quantity.running)] if fixed else columns
+        running, others = quantity.given(quantity.columns(rng, n), dtype)
+        columns = running if fixed else (*running, *others)
         with np.errstate(all="ignore"):
-            lap = timed(lambda columns=running: function(*columns), n)  # type: ignore[misc]
+            lap = timed(lambda columns=columns: function(*columns), n)  # type: ignore[misc]
         cost = lap.median
         found.append(Time(lap.n, lap.median, lap.q1, lap.q3, setup))
     return found[-len(sizes) :] if not method.serial else found[-1:]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable
+from functools import cache
 from itertools import pairwise
 from typing import Any
 
@@ -62,7 +64,12 @@ def adaptive(ndf: Callable[..., Any], low: float = -1.0) -> Callable[[float, flo
     """The same by `scipy.integrate.quad`, with its default tolerances, in two pieces at which the ring is lit anew."""
 
     def integrand(x: float, u: float, shape: float) -> float:
-        return ndf(x, shape) * kernels.sigma_dirac_ring(u, x)
+        # with `math`, as calls of the kernel with single numbers would be most of the time
+        a, d = u * x, 1.0 - u * u - x * x
+        if d <= 0.0:
+            return float(ndf(x, shape)) * 2.0 * math.pi * max(a, 0.0)
+        root = math.sqrt(d)
+        return float(ndf(x, shape)) * 2.0 * (root + a * (0.5 * math.pi + math.atan(a / root)))
 
     def sigma(u: float, shape: float) -> float:
         s = np.sqrt(1.0 - u * u)
@@ -86,8 +93,10 @@ def arbitrary(ndf: Callable[..., Any], digits: int, low: float = -1.0) -> Callab
     return sigma
 
 
-def quadratures(ndf: Callable[..., Any], exact: Callable[..., Any], low: float = -1.0) -> tuple[Method, ...]:
-    """The three of them as methods; `exact` is the distribution in mpmath."""
+def quadratures(
+    ndf: Callable[..., Any], exact: Callable[..., Any], low: float = -1.0, most: tuple[int, int] = (500, 60)
+) -> tuple[Method, ...]:
+    """The three of them as methods; `exact` is the distribution in mpmath. most: points that the slow ones get."""
     return (
         Method(
             "Gauss-Legendre over rings",
@@ -102,7 +111,7 @@ def quadratures(ndf: Callable[..., Any], exact: Callable[..., Any], low: float =
             lambda: adaptive(ndf, low),
             kind="quadrature",
             serial=True,
-            most=500,
+            most=most[0],
         ),
         Method(
             "mpmath.quad",
@@ -111,7 +120,7 @@ def quadratures(ndf: Callable[..., Any], exact: Callable[..., Any], low: float =
             kind="arbitrary precision",
             curve=along(digits=(15, 30)),
             serial=True,
-            most=60,
+            most=most[1],
         ),
     )
 
@@ -119,6 +128,7 @@ def quadratures(ndf: Callable[..., Any], exact: Callable[..., Any], low: float =
 def loop(scalar: Callable[..., Any], parallel: bool = False) -> Callable[[], Any]:
     """A formula of numbers as a compiled loop over arrays."""
 
+    @cache
     def make() -> Any:
         import numba
 

@@ -1,6 +1,10 @@
 """The cross-section of a ring of normals, and of a distribution of them, from the definition."""
 
+from functools import cache
+
 from mpmath import mp, mpf
+
+from xsec_sym.study.references.surfaces import exactly
 
 
 def ring_from_definition(u, x):
@@ -47,3 +51,22 @@ def cross_section_over_rings(ndf, u, cuts=()):
     low, high = sorted([mp.sign(u) * s, mp.sign(u)])
     lit = sorted([low, high] + [cut for cut in cuts if low < cut < high])
     return total + 2 * mp.pi * u * mp.quad(lambda x: x * ndf(x), lit)
+
+
+sigma_dirac_ring = exactly(ring)
+
+
+@exactly
+def sigma_power(u, p):
+    """2 pi u/(p + 2) for odd p; for even ones the moments of the ring in powers of u, A_n 2F1(-1/2, -n; 1/2; u^2)."""
+    if p % 2:
+        return 2 * mp.pi * u / (p + 2)
+    return mp.pi * mp.polyval(in_powers(int(p) // 2), u * u)
+
+
+@cache
+def in_powers(n):
+    """The coefficients of sigma/pi in u^2, highest first, at more digits than any of them cancel."""
+    with mp.workdps(250):
+        scale = mp.binomial(2 * n, n) / mpf(4) ** n / (n + 1)
+        return [scale * mp.binomial(n, k) * (-1) ** k / (1 - 2 * k) for k in range(n, -1, -1)]

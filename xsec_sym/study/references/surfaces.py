@@ -36,6 +36,8 @@ def sigma_ggx(u, alpha):
 
 @exactly
 def sigma_ellipsoidal(u, b):
+    if b in (0, 1):
+        return max(u, mpf(0)) if b else mpf(1) / 4
     R, L = mp.sqrt(1 - b * b * (1 - u * u)), mp.log((1 + b) / (1 - b))
     # (1 - u)/(R - u) at its limit
     quotient = (1 - u) / (R - u) if u != 1 else 1 / (1 - b * b)
@@ -64,11 +66,11 @@ def ndf_spherical_gaussian(u, alpha):
 
 
 def lambda_beckmann(u, alpha):
-    return sigma_beckmann(-float(u), alpha) / mpf(float(u))
+    return sigma_beckmann(-float(u), alpha) / mpf(float(u)) if u else mp.inf
 
 
 def lambda_ggx(u, alpha):
-    return sigma_ggx(-float(u), alpha) / mpf(float(u))
+    return sigma_ggx(-float(u), alpha) / mpf(float(u)) if u else mp.inf
 
 
 def sigma_spherical_gaussian(u, alpha, digits=30):
