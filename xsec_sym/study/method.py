@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from importlib import import_module
 from importlib.util import find_spec
 from itertools import product
+from math import ceil, floor
 from typing import Any
 
 import numpy as np
@@ -55,7 +56,7 @@ class Argument:
         """Points between two values, the ends of the domain where none are given."""
         low, high = self.low if low is None else low, self.high if high is None else high
         if self.integer:
-            return rng.integers(int(low), int(high), n, endpoint=True).astype(float)
+            return rng.integers(ceil(low), floor(high), n, endpoint=True).astype(float)
         if self.scale == "log":
             return np.exp(rng.uniform(np.log(low), np.log(high), n)).clip(low, high)
         return rng.uniform(low, high, n)
@@ -70,6 +71,8 @@ class Quantity:
     per_cell: points drawn in a cell of the set arguments, and in each cell of the running ones for every one of those.
     embed: makes the running arguments of the methods out of those here, where they fill no box: a unit vector out of
     two angles. Points and cells are in the latter; `given` is what methods and the reference get.
+    references: the reference of columns of doubles at once, as doubles, where that is the better part of its cost.
+    steps: by how much an argument is moved for the condition number, relatively; 0 leaves it out.
     """
 
     name: str
@@ -83,6 +86,7 @@ class Quantity:
     unit: str = ""
     about: str = ""
     embed: Function | None = None
+    references: Function | None = None
 
     @property
     def arguments(self) -> tuple[Argument, ...]:
@@ -169,6 +173,14 @@ HOMES = {
     "lambda_ggx": "smith",
     "ssl": "squared_lobes",
     "sel": "squared_lobes",
+    "h_isotropic": "isotropic",
+    "brdf_isotropic": "isotropic",
+    "h_lambert_sphere": "h_lambert_sphere",
+    "phase_lambert_sphere": "sphere_phase",
+    "sample_lambert_sphere": "sphere_phase",
+    "brdf_lambert_sphere": "brdf_lambert_sphere",
+    "albedo_lambert_sphere": "albedo_lambert_sphere",
+    "albedo_lambert_sphere_inverse": "albedo_lambert_sphere",
 }
 
 

@@ -76,6 +76,9 @@ def right(quantity: Quantity, label: str, columns: Columns, dtype: str = "float6
     """The points as numbers of `dtype`, with the reference's values."""
     columns = tuple(np.asarray(c, dtype).astype(np.float64) for c in columns)
     running, fixed = quantity.given(columns, dtype)
+    if quantity.references is not None:
+        high = np.asarray(quantity.references(*running, *fixed), float)
+        return Points(label, columns, high, np.zeros_like(high))
     rows = list(zip(*running, *fixed, strict=True))
     parts = [rows[k : k + PARTS] for k in range(0, len(rows), PARTS)]
     done = Parallel(n_jobs=jobs)(delayed(_values)(quantity.reference, part) for part in parts)
