@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
-.PHONY: verify verify-fresh test lint bench walk notebooks generate clean
+.PHONY: verify verify-fresh test lint bench chart walk notebooks generate clean
 
 $(READY): pyproject.toml constraints.txt
 	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed") if sys.version_info < (3, 11) else None'
@@ -27,6 +27,11 @@ test: lint
 
 bench: $(READY)
 	$(BIN)/python -m tests.bench
+
+# Draws speed against accuracy, and the failure maps, from the stored measurements; `xsec chart NAME --measure` makes new
+# ones.
+chart: $(READY)
+	$(BIN)/python -m xsec_sym.study draw charts
 
 # Simulates two media, and compares them with Smith's theory and with each other.
 walk: $(READY)

@@ -156,6 +156,86 @@ def half_space_rows() -> list[Row]:
     return rows
 
 
+def _priced(runs: dict[str, Callable[[], object]], values: int, repeats: int = REPEATS) -> list[Row]:
+    """A row for each run of so many values, beside np.exp of as many and their copy."""
+    numbers = np.random.default_rng(4).uniform(0, 1, values)
+    yardsticks: dict[str, Callable[[], object]] = {"np.exp": lambda: np.exp(numbers), "copy": numbers.copy}
+    costs = {name: median_seconds(run) for name, run in yardsticks.items()}
+    rows = [(f"{name}, {values:,} values", f"{1e9 * cost / values:.2f} ns/value", "") for name, cost in costs.items()]
+    for name, run in runs.items():
+        seconds = median_seconds(run, repeats)
+        ratios = ", ".join(f"{seconds / cost:.1f} x {yardstick}" for yardstick, cost in costs.items())
+        rows.append((name, f"{1e9 * seconds / values:.2f} ns/value", ratios))
+    return rows
+
+
+def lambert_sphere_rows() -> list[Row]:
+    """Spheres and their half-space, with an array of albedos as long as that of cosines unless one is mentioned."""
+    from xsec_sym import kernels
+    from xsec_sym.kernels._support import elementwise
+
+    def paper_albedo(c: np.ndarray) -> np.ndarray:
+        s = np.sqrt(1.0 - c)
+        return (1.0 - 0.453029 * (1.0 - c) - 0.544162 * s) / (1.42931 * s + 1.0)
+
+    rng = np.random.default_rng(7)
+    mu, other, c = rng.uniform(0, 1, (3, VALUES))
+    u, phi = rng.uniform(-1, 1, VALUES), rng.uniform(-np.pi, np.pi, VALUES)
+    runs: dict[str, Callable[[], object]] = {
+        "phase_lambert_sphere": lambda: kernels.phase_lambert_sphere(u),
+        "sample_lambert_sphere": lambda: kernels.sample_lambert_sphere(mu),
+        "h_lambert_sphere, one albedo": lambda: kernels.h_lambert_sphere(mu, 0.9, 0),
+        "h_lambert_sphere_fit": lambda: kernels.h_lambert_sphere_fit(mu, c, 0),
+        "albedo_lambert_sphere": lambda: kernels.albedo_lambert_sphere(c),
+        "albedo_lambert_sphere_fit": lambda: kernels.albedo_lambert_sphere_fit(c),
+        "deon2021:47, in the same blocks": lambda: elementwise(paper_albedo, c=c),
+        "albedo_lambert_sphere_inverse": lambda: kernels.albedo_lambert_sphere_inverse(c),
+        "albedo_lambert_sphere_inverse_fit": lambda: kernels.albedo_lambert_sphere_inverse_fit(c),
+    }
+    for name in ("fit", "fast", "paper", "fast_paper", "hapke"):
+        brdf: Callable[..., object] = getattr(kernels, f"brdf_lambert_sphere_{name}")
+        runs[f"brdf_lambert_sphere_{name}"] = lambda brdf=brdf: brdf(mu, other, phi, c)
+        runs[f"brdf_lambert_sphere_{name}, one albedo"] = lambda brdf=brdf: brdf(mu, other, phi, 0.9)
+    rows = _priced(runs, VALUES, 5)
+
+    def exact(albedo: float, values: int) -> Callable[[], object]:
+        return lambda: kernels.brdf_lambert_sphere(mu[:values], other[:values], phi[:values], albedo)
+
+    # Few values are given without tables.
+    for what, values in {"solved": 1, "with tables": VALUES // 100}.items():
+        times = []
+        for albedo in (0.21, 0.52, 0.83):
+            start = time.perf_counter()
+            exact(albedo + 0.001 * (values == 1), values)()
+            times.append(time.perf_counter() - start)
+        rows.append((f"brdf_lambert_sphere, a new albedo {what}", f"{1e3 * statistics.median(times):.0f} ms", ""))
+    for values in (VALUES, VALUES // 1000):
+        rows += _priced({f"brdf_lambert_sphere, {values:,} of one albedo": exact(0.83, values)}, values, 3)
+    several = VALUES // 100
+    return rows + _priced({"h_lambert_sphere": lambda: kernels.h_lambert_sphere(mu[:several], c[:several], 0)}, several)
+
+
+def sampler_rows() -> list[Row]:
+    """Visible normals: each with a viewer and a roughness of its own, and many for one pair; set-up is part of it."""
+    from xsec_sym import kernels
+
+    rng = np.random.default_rng(8)
+    n = VALUES // 10
+    u, alpha, x, y = rng.uniform(0, 1, (4, n))
+    normals = kernels.sample_visible_ggx(u, alpha, x, y)
+    runs: dict[str, Callable[[], object]] = {
+        "visible_ggx": lambda: kernels.visible_ggx(*normals, u, alpha),
+        "visible_spherical_gaussian": lambda: kernels.visible_spherical_gaussian(*normals, u, alpha),
+        "sample_visible_ggx": lambda: kernels.sample_visible_ggx(u, alpha, x, y),
+        "sample_visible_ggx, one pair": lambda: kernels.sample_visible_ggx(0.3, 0.5, x, y),
+        "sample_visible_spherical_gaussian": lambda: kernels.sample_visible_spherical_gaussian(u, alpha, rng),
+        "sample_visible_spherical_gaussian, one pair": lambda: kernels.sample_visible_spherical_gaussian(
+            0.3, 0.5, rng, n
+        ),
+    }
+    return _priced(runs, n, 3)
+
+
 def vector_rows() -> list[Row]:
     """The squared lobes, with arrays of roughnesses and with single ones, and Smith's functions of Lambda."""
     from xsec_sym import kernels
@@ -221,6 +301,8 @@ SECTIONS: list[Callable[[], list[Row]]] = [
     lobe_rows,
     spherical_gaussian_rows,
     half_space_rows,
+    lambert_sphere_rows,
+    sampler_rows,
     vector_rows,
     cross_section_rows,
     command_rows,
@@ -230,7 +312,7 @@ SECTIONS: list[Callable[[], list[Row]]] = [
 def main() -> None:
     for section in SECTIONS:
         for name, figure, remark in section():
-            print(f"{name:42}{figure:>18}   {remark}".rstrip(), flush=True)
+            print(f"{name:46}{figure:>18}   {remark}".rstrip(), flush=True)
 
 
 if __name__ == "__main__":

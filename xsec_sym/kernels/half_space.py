@@ -253,9 +253,9 @@ class HalfSpace:
     """The half-space of single-scattering albedo c with the phase function 1/(4 pi) sum over l of A_l P_l.
 
     coefficients: A_0 = 1, A_1, ... of a phase function that is nowhere negative, as far as they matter. albedo: c in
-    [0, 1]. modes: how many Fourier modes the light scattered more than once gets. core: the orders up to this one make
-    the matrices of the first step; those above must be small. nodes: of its quadrature, at least 3/2 core. highest: the
-    highest order for each mode, all where left out.
+    [0, 1]. modes: how many Fourier modes the light scattered more than once gets, at most core + 1. core: the orders up
+    to this one make the matrices of the first step; those above must be small. nodes: of its quadrature, at least 3/2
+    core. highest: the highest order for each mode, all where left out.
 
     Everything is exact but for rounding and these cuts. Azimuth is taken between the outward directions, so phi = 0 is
     backscattering. ValueError for c outside [0, 1], A_0 other than 1, or no finite list of coefficients.
@@ -299,10 +299,10 @@ class HalfSpace:
         (p, x), (q, y) = solution.excess(mu_i), solution.excess(mu_o)
         weighed = solution.weights[:, None]
         total = (weighed * x).T @ (q + y) + (weighed * p).T @ y
-        return self._scale(mode) * total / (mu_i[:, None] + mu_o)
+        return self.scale(mode) * total / (mu_i[:, None] + mu_o)
 
     @staticmethod
-    def _scale(mode: int) -> float:
+    def scale(mode: int) -> float:
         return (1.0 if mode == 0 else 2.0) * (-1.0) ** mode / np.pi
 
     def multiple(self, mu_i: np.ndarray, mu_o: np.ndarray, phi: np.ndarray) -> np.ndarray:
@@ -320,7 +320,7 @@ class HalfSpace:
                 part = slice(start, start + CHUNK)
                 a, b = i[part], o[part]
                 values[part] = solution.multiple((p[:, a], x[:, a]), (p[:, b], x[:, b]))
-            total += self._scale(mode) * values[pair] * np.cos(mode * phi)
+            total += self.scale(mode) * values[pair] * np.cos(mode * phi)
         return total / (mu_i + mu_o)
 
     def single(self, mu_i: np.ndarray, mu_o: np.ndarray, phi: np.ndarray) -> np.ndarray:

@@ -187,17 +187,17 @@ def plan(
 
 def _measurements(scene: Scene, measure: bool, tick: Tick) -> tuple[dict[str, Any], dict[str, Any] | None]:
     from xsec_sym.planner import tables
-    from xsec_sym.study import measure as study
+    from xsec_sym.study import files
 
     data: dict[str, Any] = {}
     for name in dict.fromkeys(m.quantity.name for m in scene.materials):
         if measure:
-            data[name] = study.measure(name, tick=tick)
+            data[name] = files.measured(name, tick=tick)
             continue
         try:
-            data[name] = study.stored(name)
-        except FileNotFoundError:
-            raise BadScene(f"{name}: no measurements of it are stored: measure it, with --measure") from None
+            data[name] = files.stored(name)
+        except files.Unmeasured as error:
+            raise BadScene(str(error)) from None
     return data, tables.measured() if measure else None
 
 

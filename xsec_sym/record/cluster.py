@@ -5,6 +5,7 @@ A worker there runs each batch in a Python process of its own, so that the limit
 
 from __future__ import annotations
 
+import contextlib
 import json
 import subprocess
 import sys
@@ -25,14 +26,8 @@ class NoCluster(Exception):
 
 def remote(address: str, settings: Settings) -> Execute:
     """Carry out jobs on the cluster whose scheduler listens at ``address``. Raises `NoCluster`."""
-    try:
-        from distributed import Client, as_completed
-    except ImportError:
-        raise NoCluster("--cluster needs the package dask.distributed: pip install distributed") from None
-    try:
-        client = Client(address, timeout="10s")
-    except (OSError, ValueError, TypeError) as error:
-        raise NoCluster(f"no scheduler answers at {address}: {error or type(error).__name__}") from None
+    client = connected(address)
+    from distributed import as_completed
 
     def execute(jobs: list[Job]) -> Iterator[tuple[str, Verdict]]:
         # replays take milliseconds and share the imports of one process; what is derived anew goes out singly
@@ -45,6 +40,30 @@ def remote(address: str, settings: Settings) -> Execute:
                 yield from _answers(future, sent[future])
 
     return execute
+
+
+def connected(address: str) -> Any:
+    """A client of the scheduler. Raises `NoCluster`."""
+    try:
+        from distributed import Client
+    except ImportError:
+        raise NoCluster("--cluster needs the package dask.distributed: pip install distributed") from None
+    try:
+        return Client(address, timeout="10s")
+    except (OSError, ValueError, TypeError) as error:
+        raise NoCluster(f"no scheduler answers at {address}: {error or type(error).__name__}") from None
+
+
+@contextlib.contextmanager
+def spread(address: str | None) -> Iterator[None]:
+    """While it lasts, what joblib runs in parallel runs on the cluster, if there is an address."""
+    if address is None:
+        yield
+        return
+    from joblib import parallel_config
+
+    with connected(address), parallel_config("dask"):
+        yield
 
 
 def _answers(future: Any, jobs: list[Job]) -> Iterator[tuple[str, Verdict]]:

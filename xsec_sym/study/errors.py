@@ -96,14 +96,18 @@ def by_cell(quantity: Quantity, found: np.ndarray, points: Points, dtype: str) -
         if name == "max_rel":
             # a cell in which the right value underflows everywhere has no relative error, and no failure either
             largest[np.setdiff1d(place, place[known])] = 0.0
-        told[name] = [_short(value) if value >= 0 else None for value in largest]
+        told[name] = [_short(float(value), 2) if value >= 0 else None for value in largest]
     return told
 
 
-def _short(value: Any) -> Any:
-    """Three digits, rounded up for errors' sake; "inf" for what JSON cannot hold."""
+def _short(value: Any, digits: int = 3) -> Any:
+    """So many digits, rounded up, for no error is to look smaller than it is; "inf" for what JSON cannot hold."""
     if isinstance(value, float):
-        return "inf" if np.isinf(value) else float(f"{value:.3g}")
+        if np.isinf(value) or value <= 0.0:
+            return "inf" if value > 0 else 0.0
+        unit = 10.0 ** (np.floor(np.log10(value)) - digits + 1)
+        rounded = np.ceil(value / unit) * unit if unit > 0 else value
+        return float(f"{rounded:.{digits}g}")
     if isinstance(value, tuple):
         return [float(f"{v:.17g}") for v in value]
     return value

@@ -15,7 +15,6 @@ from xsec_sym.study.errors import by_cell, summary, values
 from xsec_sym.study.method import Method, Quantity, registered
 from xsec_sym.study.points import BULK, Points, bulk, condition, right
 
-DATA = Path(__file__).parent / "data"
 TROUBLE, CONDITIONED = 200, 200
 DTYPES = ("float64", "float32")
 Tick = Callable[[str], None]
@@ -47,6 +46,7 @@ def measure(name: str, seed: int = 1, jobs: int = 1, tick: Tick = lambda said: N
             {"name": a.name, "edges": list(a.edges), "scale": a.scale, "set": a in field.quantity.set}
             for a in field.quantity.arguments
         ],
+        "usual": {key: list(ends) for key, ends in field.quantity.usual.items()},
         "condition": cond,
         "yardsticks": yardsticks[clock.SIZES[-1]],
         "yardsticks_by_size": {str(n): found for n, found in yardsticks.items()},
@@ -96,7 +96,9 @@ def _measured(
         reports[points.label] = summary(found, points, dtype).as_dict()
         if points.label == BULK:
             cells = by_cell(quantity, found, points, dtype)
+    usual = quantity.box(quantity.usual)
     whole = {
+        **{f"usual_{key[4:]}": _largest(cells[key], usual) for key in ("max_rel", "max_abs")},
         "points": sum(r["points"] for r in reports.values()),
         "failures": sum(r["failures"] for r in reports.values()),
         **{key: worst(r[key] for r in reports.values()) for key in ("max_rel", "max_abs", "max_ulp")},
@@ -133,6 +135,10 @@ def _measured(
     return rows
 
 
+def _largest(cells: list[Any], where: np.ndarray) -> Any:
+    return worst(error for error, inside in zip(cells, where, strict=True) if inside and error is not None)
+
+
 def worst(found: Iterable[Any]) -> Any:
     """The largest of numbers among which "inf" may be."""
     found = list(found)
@@ -144,23 +150,15 @@ def _three(value: float) -> float:
 
 
 def mark_pareto(rows: list[dict[str, Any]]) -> None:
-    """Mark what nothing else of its kind of call beats in both the time and the largest relative error."""
+    """Mark what nothing else in the same kind of call beats in both the time and the largest relative error."""
     for row in rows:
-        rivals = [r for r in rows if _alike(r, row)]
-        row["pareto"] = not any(
-            _number(r["max_rel"]) <= _number(row["max_rel"])
-            and r["ns_median"] <= row["ns_median"]
-            and (_number(r["max_rel"]), r["ns_median"]) != (_number(row["max_rel"]), row["ns_median"])
-            for r in rivals
-        )
+        mine = (float(row["max_rel"]), row["ns_median"])
+        theirs = [(float(r["max_rel"]), r["ns_median"]) for r in rows if _alike(r, row)]
+        row["pareto"] = not any(e <= mine[0] and t <= mine[1] and (e, t) != mine for e, t in theirs)
 
 
 def _alike(a: dict[str, Any], b: dict[str, Any]) -> bool:
-    return bool(a["fixed"]) == bool(b["fixed"]) and a["dtype"] == b["dtype"]
-
-
-def _number(value: Any) -> float:
-    return float(value)
+    return all(a[key] == b[key] for key in ("fixed", "dtype", "n"))
 
 
 def machine() -> dict[str, Any]:
@@ -180,11 +178,3 @@ def machine() -> dict[str, Any]:
         "numpy": np.__version__,
         "scipy": scipy.__version__,
     }
-
-
-def stored(name: str) -> dict[str, Any]:
-    """The committed measurements of a quantity."""
-    import json
-
-    registered(name)
-    return json.loads((DATA / f"{name}.json").read_text(encoding="utf-8"))

@@ -73,6 +73,7 @@ class Quantity:
     two angles. Points and cells are in the latter; `given` is what methods and the reference get.
     references: the reference of columns of doubles at once, as doubles, where that is the better part of its cost.
     steps: by how much an argument is moved for the condition number, relatively; 0 leaves it out.
+    usual: ranges that scenes are made of, where the whole domain is much wider; charts show the errors there.
     """
 
     name: str
@@ -83,6 +84,7 @@ class Quantity:
     trouble: Mapping[str, Callable[[np.random.Generator, int], Columns]] = field(default_factory=dict)
     typical: tuple[tuple[float, ...], ...] = ((),)
     per_cell: tuple[int, int] = (2, 2)
+    usual: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     unit: str = ""
     about: str = ""
     embed: Function | None = None
@@ -95,6 +97,15 @@ class Quantity:
     @property
     def shape(self) -> tuple[int, ...]:
         return tuple(len(a.edges) - 1 for a in self.arguments)
+
+    def box(self, ranges: Mapping[str, tuple[float, float]]) -> np.ndarray:
+        """Which cells these ranges meet, in the order in which errors are kept."""
+        meets = []
+        for argument in self.arguments:
+            inside = np.zeros(len(argument.edges) - 1, bool)
+            inside[list(argument.cells(*ranges.get(argument.name, (argument.low, argument.high))))] = True
+            meets.append(inside)
+        return np.ravel(np.prod(np.meshgrid(*meets, indexing="ij"), axis=0)).astype(bool)
 
     def columns(self, rng: np.random.Generator, n: int) -> Columns:
         """n points anywhere in the domain, on which methods are timed."""

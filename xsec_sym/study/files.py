@@ -1,0 +1,73 @@
+"""Measurements as files: those that are committed, new ones, and what is drawn from them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from xsec_sym.record.files import layout, plain
+from xsec_sym.study.method import registered
+
+DATA = Path(__file__).parent / "data"
+KINDS = (".svg", ".png", ".json")
+Tick = Callable[[str], None]
+# What only the planner and the maps read.
+INNER = ("cells", "by_label")
+
+
+class Unmeasured(LookupError):
+    """There is no stored measurement of the quantity."""
+
+
+def known(name: str) -> None:
+    """Raises `UnknownQuantity` unless the quantity is registered."""
+    registered(name)
+
+
+def variants(name: str) -> int:
+    """How many methods, parameters and dtypes there are to measure."""
+    return sum(2 if method.single else 1 for method, _ in registered(name).variants())
+
+
+def stored(name: str) -> dict[str, Any]:
+    """The committed measurements of a quantity. Raises `UnknownQuantity`, `Unmeasured`."""
+    known(name)
+    path = DATA / f"{name}.json"
+    if not path.exists():
+        raise Unmeasured(f"{name} has no stored measurement; --measure makes one")
+    found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+    return found
+
+
+def measured(
+    name: str, seed: int = 1, jobs: int = 1, tick: Callable[[str], None] = lambda said: None
+) -> dict[str, Any]:
+    """New measurements, on this machine."""
+    from xsec_sym.study.measure import measure
+
+    found: dict[str, Any] = plain(measure(name, seed, jobs, tick))
+    return found
+
+
+def text(data: Mapping[str, Any]) -> str:
+    return layout(data, depth=2) + "\n"
+
+
+def table(data: Mapping[str, Any]) -> list[str]:
+    from xsec_sym.study import chart
+
+    return chart.table(data)
+
+
+def write(data: Mapping[str, Any], path: str | Path, kind: str, stability: bool = False) -> None:
+    """The data, or what is drawn of them, in a file of this kind."""
+    from xsec_sym.study import chart
+    from xsec_sym.study import stability as maps
+
+    if kind == ".json":
+        points = [{key: value for key, value in row.items() if key not in INNER} for row in data["points"]]
+        Path(path).write_text(text({**data, "points": points}), encoding="utf-8")
+    else:
+        (maps if stability else chart).draw(data, path)
