@@ -30,8 +30,7 @@ def errors(found, n=60):
     for planned in found.materials:
         material = planned.material
         at = points(material, SEED, n)
-        columns = {a.name: c for a, c in zip(material.quantity.arguments, at.columns, strict=True)}
-        value = getattr(module, planned.function)(*(columns[a].astype(material.dtype) for a in material.arguments))
+        value = getattr(module, planned.function)(*material.inputs(at.columns))
         assert value.dtype == material.dtype
         yield planned, largest(material, value, at)
 
@@ -56,7 +55,7 @@ def fog():
                 {"name": "pane", "quantity": SG, "alpha": 0.3},
                 {"name": "front", "quantity": SG, "alpha": 0.3, "u": [0.0, 1.0], "dtype": "float32"},
                 {"name": "textured", "quantity": SG, "alpha": [0.3, 3.0], "tolerance": 1e-6},
-                {"name": "absolute", "quantity": SG, "alpha": 0.02, "error": "absolute"},
+                {"name": "absolute", "quantity": SG, "alpha": 0.1, "error": "absolute"},
             ],
         }
     )
@@ -140,9 +139,9 @@ def test_what_is_chosen_is_the_cheapest_that_keeps_to_the_tolerance(fog):
 
 
 def test_narrow_ranges_let_approximations_in():
-    """On the side turned toward the viewer, and over all of it."""
-    smooth = {"quantity": SG, "alpha": [0.001, 0.002], "tolerance": 1e-3}
-    found = plan(scene(front={**smooth, "u": [0.1, 1.0]}, both=smooth))
+    """On the side turned toward the viewer the approximations hold that fail on the other."""
+    smooth = {"quantity": SG, "alpha": [0.03, 0.035], "tolerance": 2e-3}
+    found = plan(scene(front={**smooth, "u": [0.2, 1.0]}, both={**smooth, "u": [-0.1, 1.0]}))
     front, both = found.materials
     assert front.method != both.method and front.ns_per_value < both.ns_per_value
 
@@ -162,10 +161,10 @@ def test_rare_evaluations_do_not_pay_for_a_set_up():
 
 def test_json_has_what_is_promised(tmp_path):
     path = tmp_path / "scene.toml"
-    path.write_text(
-        f'[[material]]\nname = "A b"\nquantity = "{SG}"\nalpha = 2\ntolerance = 1e-3\n', encoding="utf-8"
+    path.write_text(f'[[material]]\nname = "A b"\nquantity = "{SG}"\nalpha = 2\ntolerance = 1e-3\n', encoding="utf-8")
+    result = CliRunner().invoke(
+        cli.main, ["plan", str(path), "-o", str(tmp_path / "k.py"), "--json", str(tmp_path / "p.json")]
     )
-    result = CliRunner().invoke(cli.main, ["plan", str(path), "-o", str(tmp_path / "k.py"), "--json", str(tmp_path / "p.json")])
     assert result.exit_code == 0, result.output
     data = json.loads((tmp_path / "p.json").read_text(encoding="utf-8"))
     assert data["scene"] == "scene"

@@ -50,7 +50,11 @@ BAD = {
     "a name of two lines": (('name = "fog"', 'name = "a\\nb"'), "name", "one line"),
     "one bracket": (("[[material]]", "[material]"), "material", "[[material]]"),
     "no material": ((GOOD[GOOD.index("[[") :], ""), "material", "none"),
-    "two of a name": (("[[material]]", GOOD[GOOD.index("[[") :].replace('"fog"', '"FOG"') + "[[material]]"), "name", "fog"),
+    "two of a name": (
+        ("[[material]]", GOOD[GOOD.index("[[") :].replace('"fog"', '"FOG"') + "[[material]]"),
+        "name",
+        "fog",
+    ),
 }
 
 
@@ -96,7 +100,13 @@ def test_a_tolerance_that_nothing_meets_names_the_best(tmp_path):
     assert "fog" in said and "tolerance" in said and "the best is" in said
     assert not (tmp_path / "kernels.py").exists()
     with pytest.raises(Unmet):
-        plan({"material": [dict(name="a", quantity="sigma_spherical_gaussian", alpha=1, tolerance=1e-9, dtype="float32")]})
+        plan(
+            {
+                "material": [
+                    dict(name="a", quantity="sigma_spherical_gaussian", alpha=1, tolerance=1e-9, dtype="float32")
+                ]
+            }
+        )
 
 
 def test_dictionaries_are_scenes_too():

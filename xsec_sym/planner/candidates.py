@@ -88,13 +88,12 @@ class Candidate:
     def _by_method(self, columns: Columns) -> np.ndarray:
         assert self.method is not None
         kind = self.material.dtype if self.plain else "float64"
-        typed = [np.ascontiguousarray(c, dtype=kind) for c in columns]
-        folded = self.material.folded
+        running, others = self.material.quantity.given(columns, kind)
         if self.method.folds:
-            typed = typed[: len(self.material.quantity.running)]
-        elif folded and not self.plain:
-            typed[len(self.material.quantity.running) :] = folded  # type: ignore[assignment]
-        return np.broadcast_to(np.asarray(self.made(*typed), float), columns[0].shape)
+            others = ()
+        elif self.material.folded and not self.plain:
+            others = self.material.folded  # type: ignore[assignment]
+        return np.broadcast_to(np.asarray(self.made(*running, *others), float), columns[0].shape)
 
 
 # --- points ------------------------------------------------------------------------------------------------
@@ -149,7 +148,11 @@ def candidates(material: Material, data: Mapping[str, Any], costs: Mapping[str, 
     """All there are, the cheapest first; those that cannot be written or measured are among them."""
     field = registered(material.quantity.name)
     _fits(material.quantity, data)
-    found = [c for method, parameters in field.variants() if (c := _measured(material, method, parameters, data))]
+    found = [
+        _candidate(material, method, parameters, data)
+        for method, parameters in field.variants()
+        if _rows(data, method, parameters, "float64")
+    ]
     kernel = general(field, material, data)
     found += _tabled(material, kernel, costs)
     return sorted(found, key=lambda c: (c.cost, c.name))
@@ -158,18 +161,16 @@ def candidates(material: Material, data: Mapping[str, Any], costs: Mapping[str, 
 def general(field: Field, material: Material, data: Mapping[str, Any]) -> Candidate:
     """The kernel for everything: of ours the most accurate that is made for nothing in particular."""
     ours = [
-        (float(rows[0]["max_rel"]), method, parameters)
+        (not method.name.startswith("kernel"), method.folds, float(rows[0]["max_rel"]), method, parameters)
         for method, parameters in field.variants()
-        if method.ours and not method.folds and not method.serial and not method.model
+        if method.ours and not method.serial and not method.needs and not method.model
         for rows in [_rows(data, method, parameters, "float64")]
         if rows
     ]
     if not ours:
         raise Stale(f"{field.quantity.name}: no kernel of it is measured")
-    _, method, parameters = min(ours, key=lambda row: row[0])
-    found = _measured(material, method, parameters, data)
-    assert found is not None
-    return found
+    *_, method, parameters = min(ours, key=lambda row: row[:3])
+    return _candidate(material, method, parameters, data, general=True)
 
 
 def _fits(quantity: Quantity, data: Mapping[str, Any]) -> None:
@@ -186,29 +187,26 @@ def _rows(data: Mapping[str, Any], method: Method, parameters: Mapping[str, Any]
     ]
 
 
-def _measured(
-    material: Material, method: Method, parameters: Mapping[str, Any], data: Mapping[str, Any]
-) -> Candidate | None:
+def _candidate(
+    material: Material, method: Method, parameters: Mapping[str, Any], data: Mapping[str, Any], general: bool = False
+) -> Candidate:
+    """A measured method; `general`: for itself, as it is timed, even where the material's arguments do not fit it."""
     native = method.ours and method.single and not method.folds
-    dtype = material.dtype if native else "float64"
-    rows = _rows(data, method, parameters, dtype)
-    if not rows:
-        return None
+    rows = _rows(data, method, parameters, material.dtype if native else "float64")
     said = label(parameters)
-    folded = material.folded if material.quantity.set else None
-    if method.folds and material.quantity.set and folded is None:
+    if method.folds and material.folded is None and not general:
         ns, setup = math.nan, 0.0
     else:
         ns, setup = _time(material, rows)
     error = _cells(material, rows)
-    if error is not None and dtype != material.dtype:
+    if error is not None and not native and material.dtype == "float32":
         error += ROUNDED
     return Candidate(
         material,
         f"{method.name} ({said})" if said else method.name,
         method.source,
         method.model or material.quantity.name,
-        ns + (0.0 if native else tables.guard(len(material.ranges))),
+        ns + (0.0 if native or general else tables.guard(len(material.ranges))),
         setup if method.folds else 0.0,
         error,
         method,
@@ -226,7 +224,7 @@ def _time(material: Material, rows: list[dict[str, Any]]) -> tuple[float, float]
         near = min(_apart(material, r["fixed"]) for r in constant)
         chosen = [r for r in constant if _apart(material, r["fixed"]) == near]
     else:
-        chosen = arrays or constant
+        chosen = arrays or constant[-1:]
     row = min(chosen, key=lambda r: abs(math.log(r["n"] / n)))
     ns = float(row["ns_median"])
     # a method with constants is timed at one size: what a call costs by itself is known from the other rows
@@ -266,20 +264,26 @@ def _tabled(material: Material, kernel: Candidate, costs: Mapping[str, Any] | No
     quantity = material.quantity
     names = [a.name for a in quantity.arguments]
     point = [material.constants.get(name, 0.0) for name in names]
+    if quantity.embed or not (kernel.plain or material.folded is not None):
+        return
+    if kernel.method is not None and kernel.method.folds:
+        names, point = names[: len(quantity.running)], point[: len(quantity.running)]
     if not material.ranges:
-        number = float(np.asarray(kernel.made(*point)))
+        number = float(np.asarray(kernel.made(*map(np.array, point))))
         yield Candidate(material, "number", kernel.source, kernel.model, 0.0, number=number)
         return
     if len(material.ranges) > 1:
         return
     (name,) = material.ranges
+    if name not in names:
+        return
     if next(a for a in quantity.arguments if a.name == name).integer:
         return
     place = names.index(name)
 
     def at(function: Function, x: np.ndarray) -> np.ndarray:
         with np.errstate(all="ignore"):
-            return np.asarray(function(*(x if k == place else v for k, v in enumerate(point))), float)
+            return np.asarray(function(*(x if k == place else np.full_like(x, v) for k, v in enumerate(point))), float)
 
     def value(x: np.ndarray) -> np.ndarray:
         return at(kernel.made, x)

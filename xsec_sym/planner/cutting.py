@@ -109,7 +109,7 @@ class Bundle:
         """A module whose parts are asked for by name while the text runs."""
         key = (home, "")
         if key not in self._named:
-            names = [name for name in read(home).parts]
+            names = list(read(home).parts)
             taken = [f"{name}={self.take(home, name)}" for name in names]
             self._named[key] = name = self.fresh(home.rpartition(".")[2])
             maker = self._import("from types import SimpleNamespace", "SimpleNamespace")
@@ -138,14 +138,13 @@ class Bundle:
 
     def function(self, found: Any, wanted: str = "") -> str:
         """A function with what is bound to it; its name in the text. Raises `Entangled` where there is none."""
-        for special in _libraries():
-            if isinstance(found, np.ufunc) and getattr(special, found.__name__, None) is found:
-                home = special.__name__
-                if home == "numpy":
-                    return f"{self._import('import numpy as np', 'np')}.{found.__name__}"
-                return f"{self._import('from scipy import special', 'special')}.{found.__name__}"
+        for library, said in _libraries():
+            name = getattr(found, "__name__", "")
+            if isinstance(found, np.ufunc) and getattr(library, name, None) is found:
+                return f"{self._import(said, said.split()[-1])}.{name}"
         if isinstance(found, type) or not isinstance(found, FunctionType):
-            inner = getattr(found, "__wrapped__", None)
+            # what `functools.cache` makes keeps its decorator in the source; anything else compiles, or worse
+            inner = getattr(found, "__wrapped__", None) if type(found).__module__ == "functools" else None
             if isinstance(inner, FunctionType) and "<locals>" not in inner.__qualname__:
                 return self.take(inner.__module__, inner.__qualname__)
             raise Entangled(f"{getattr(found, '__name__', type(found).__name__)} is no function with a source")
@@ -190,17 +189,21 @@ class Bundle:
         if isinstance(value, np.generic):
             value = value.item()
         if isinstance(value, float) and not math.isfinite(value):
-            return f"{self._import('import math', 'math')}.{'nan' if value != value else 'inf'}" if not value < 0 else (
-                f"-{self._import('import math', 'math')}.inf"
-            )
+            sign = "-" if value < 0 else ""
+            return f"{sign}{self._import('import math', 'math')}.{'nan' if math.isnan(value) else 'inf'}"
         if value is None or isinstance(value, bool | int | float | str):
             return repr(value)
-        if isinstance(value, tuple | list):
+        if type(value) in (tuple, list):
             inner = ", ".join(self.literal(v, wanted) for v in value)
             opening, closing = ("(", ",)" if len(value) == 1 else ")") if isinstance(value, tuple) else "[]"
             return f"{opening}{inner}{closing}"
         if isinstance(value, np.ndarray):
             return self.array(value, wanted)
+        kind = type(value)
+        fields = getattr(kind, "_fields", None) or getattr(kind, "__dataclass_fields__", None)
+        if fields and kind.__module__.partition(".")[0] == OURS and "." not in kind.__qualname__:
+            inner = ", ".join(f"{n}={self.literal(getattr(value, n), f'{wanted}_{n}')}" for n in fields)
+            return f"{self.take(kind.__module__, kind.__qualname__)}({inner})"
         if isinstance(value, ModuleType) or not callable(value):
             raise Entangled(f"{wanted} is a {type(value).__name__}, which cannot be written down")
         return self.function(value)
@@ -252,10 +255,10 @@ class Bundle:
         return joined([f"{said}\n" for _, said in ordered] + [f"{said}\n" for said in self._bindings])
 
 
-def _libraries() -> list[ModuleType]:
+def _libraries() -> list[tuple[ModuleType, str]]:
     from scipy import special
 
-    return [np, special]
+    return [(np, "import numpy as np"), (special, "from scipy import special")]
 
 
 def _word(node: ast.FunctionDef | ast.ClassDef) -> str:
@@ -274,9 +277,7 @@ def _located(module: Module, code: CodeType) -> tuple[ast.FunctionDef | ast.Lamb
     if len(found) > 1:
         # of two on one line, the one whose body the code is of
         columns = {p[2] for p in code.co_positions() if p[2] is not None and p[0] == code.co_firstlineno and p[1] != 0}
-        found = [
-            n for n in found if isinstance(n, ast.Lambda) and n.body.col_offset in columns
-        ]  # pragma: no branch
+        found = [n for n in found if isinstance(n, ast.Lambda) and n.body.col_offset in columns]
     if len(found) != 1:
         raise Entangled(f"the source of {code.co_name} in {module.name} is not found, or decorated")
     node = found[0]

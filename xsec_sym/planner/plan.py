@@ -137,9 +137,7 @@ class Plan:
         return told.html(self)
 
 
-def plan(
-    scene: str | Path | Mapping[str, Any] | Scene, measure: bool = False, tick: Tick = lambda said: None
-) -> Plan:
+def plan(scene: str | Path | Mapping[str, Any] | Scene, measure: bool = False, tick: Tick = lambda said: None) -> Plan:
     """The cheapest kernels that keep to a scene's tolerances, written as one module and checked.
 
     scene: the path of a TOML file, a dictionary with its keys, or a `Scene`. measure: time and measure every method of
@@ -207,8 +205,8 @@ def _chosen(
     try:
         every = candidates(material, data, costs)
         kernel = general(registered(material.quantity.name), material, data)
-    except Stale as error:
-        raise BadScene(str(error)) from None
+    except Stale as stale:
+        raise BadScene(str(stale)) from None
     # the first are only needed where the stored cells are too wide
     probes, fresh = cache(lambda: points(material, PROBE_SEED, PROBES)), points(material, FRESH_SEED, FRESH)
     rejected: list[Rejected] = []
@@ -245,7 +243,11 @@ def _with_kernel_first(every: list[Candidate], kernel: Candidate) -> list[Candid
 
 
 def _judged(
-    material: Material, candidate: Candidate, probes: Callable[[], Points], fresh: Points, chosen: tuple[Candidate, float] | None
+    material: Material,
+    candidate: Candidate,
+    probes: Callable[[], Points],
+    fresh: Points,
+    chosen: tuple[Candidate, float] | None,
 ) -> tuple[str, float | None]:
     """Why a candidate is turned down, or nothing, and its error; with the margin where it is not."""
     if why := writing.reason_not_to_write(candidate):
@@ -282,9 +284,7 @@ def loaded(source: str) -> Any:
 
 def checked(module: Any, material: Material, at: Points) -> float:
     """The largest error of the written function; infinite where its type is not the scene's."""
-    columns = {a.name: c for a, c in zip(material.quantity.arguments, at.columns, strict=True)}
-    given = [columns[name].astype(material.dtype) for name in material.arguments]
-    found = getattr(module, material.function)(*given)
+    found = getattr(module, material.function)(*material.inputs(at.columns))
     if found.dtype != np.dtype(material.dtype):
         return math.inf
     return largest(material, np.broadcast_to(found, at.high.shape), at)

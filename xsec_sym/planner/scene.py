@@ -1,4 +1,4 @@
-"""What a scene asks for: its materials, and whatever is wrong with its file, in a line that names the file and the key."""
+"""What a scene asks for, and whatever is wrong with its file, in a line that names the file and the key."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from xsec_sym.study.method import Argument, Quantity, UnknownQuantity, registered
+import numpy as np
+
+from xsec_sym.study.method import Argument, Columns, Quantity, UnknownQuantity, registered
 
 ERRORS = ("relative", "absolute")
 DTYPES = ("float64", "float32")
@@ -47,9 +49,28 @@ class Material:
     evaluations: int = EVALUATIONS
 
     @property
+    def running(self) -> list[str]:
+        """The kernel's running arguments; they are not the quantity's where those are embedded, as angles are."""
+        if self.quantity.embed is None:
+            return [a.name for a in self.quantity.running]
+        from inspect import signature
+
+        from xsec_sym import kernels
+
+        names = list(signature(getattr(kernels, self.quantity.name)).parameters)
+        return names[: len(names) - len(self.quantity.set)]
+
+    @property
     def arguments(self) -> list[str]:
         """Those of the written function, in the kernel's order."""
-        return [a.name for a in self.quantity.arguments if a.name in self.ranges]
+        left = [name for name in self.running if name in self.ranges or self.quantity.embed is not None]
+        return left + [a.name for a in self.quantity.set if a.name in self.ranges]
+
+    def inputs(self, columns: Columns) -> list[np.ndarray]:
+        """What the written function gets at these points of the quantity."""
+        running, others = self.quantity.given(columns, self.dtype)
+        every = dict(zip([*self.running, *(a.name for a in self.quantity.set)], (*running, *others), strict=True))
+        return [every[name] for name in self.arguments]
 
     @property
     def folded(self) -> tuple[float, ...] | None:

@@ -52,9 +52,7 @@ def turned(rejected: Rejected) -> str:
 
 def html(plan: Plan) -> str:
     head = "".join(f"<th>{escape(h)}</th>" for h in HEAD)
-    body = "".join(
-        "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells(m)) + "</tr>" for m in plan.materials
-    )
+    body = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells(m)) + "</tr>" for m in plan.materials)
     down = "".join(
         f"<p>{escape(m.function)}, turned down: "
         + "; ".join(escape(turned(r)) for r in nearest(m))

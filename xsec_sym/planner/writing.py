@@ -68,7 +68,7 @@ def _docstring(candidate: Candidate, error: float, general: float) -> str:
         f"{material.quantity.title[:1].upper()}{material.quantity.title[1:]}, for {material.name}.",
         f"{material.wanted()}. Arguments of shapes that broadcast.",
         f"By: {candidate.name}{model}; from {candidate.source}. Expected {material.error} error: {error:.2g}. "
-        f"About {candidate.ns:.3g} ns a value, {general:.3g} ns by the general kernel, on the machine that was measured.",
+        f"About {candidate.ns:.3g} ns a value on the machine that was measured, {general:.3g} by the general kernel.",
     ]
     filled = [textwrap.fill(_quoted(p), WIDTH - 7, break_on_hyphens=False) for p in paragraphs]
     return textwrap.indent('"""' + "\n\n".join(filled) + '\n"""', "    ", lambda line: bool(line.strip()))
@@ -92,7 +92,8 @@ def _written(bundle: Bundle, candidate: Candidate, error: float, general: float)
     arguments = material.arguments
     np_ = bundle._import("import numpy as np", "np")
     typed = ", ".join(f"{a}: {np_}.typing.ArrayLike" for a in arguments)
-    head = f"def {material.function}({typed}) -> {np_}.ndarray | {np_}.floating:\n" + _docstring(candidate, error, general)
+    head = f"def {material.function}({typed}) -> {np_}.ndarray | {np_}.floating:\n"
+    head += _docstring(candidate, error, general)
     if candidate.number is not None:
         return f"{head}\n    return {np_}.{material.dtype}({candidate.number!r})\n"
     given = {a: a for a in arguments}
@@ -101,22 +102,23 @@ def _written(bundle: Bundle, candidate: Candidate, error: float, general: float)
         given = {a: f'{single}("{a}", {a})' for a in arguments}
     if candidate.plain:
         name = _function(bundle, candidate)
-        passed = ", ".join(given.get(a.name) or _number(material.constants[a.name]) for a in material.quantity.arguments)
+        names = [*material.running, *(a.name for a in material.quantity.set)]
+        passed = ", ".join(given.get(n) or _number(material.constants[n]) for n in names)
         return f"{head}\n    return {name}({passed})\n"
     from xsec_sym.kernels._support import elementwise
 
     within, blocks = bundle.function(runtime.within), bundle.function(elementwise)
-    limits = ", ".join(f"({a}, {low!r}, {high!r})" for a, (low, high) in _limits(candidate).items())
+    limits = "".join(f", ({a}, {low!r}, {high!r})" for a, (low, high) in _limits(candidate).items())
     core = bundle.fresh(f"_{material.function}")
     value = _table(bundle, candidate) if candidate.table is not None else _call(bundle, candidate)
     inner = f"def {core}({', '.join(f'{a}: {np_}.ndarray' for a in arguments)}) -> {np_}.ndarray:\n"
-    inner += f"    return {within}({value}, {limits})\n"
+    inner += f"    return {within}({value}{limits})\n" if limits else f"    return {value}\n"
     passed = ", ".join(f"{a}={said}" for a, said in given.items())
     return f"{inner}\n\n{head}\n    return {blocks}({core}, {passed})\n"
 
 
 def _limits(candidate: Candidate) -> dict[str, tuple[float, float]]:
-    return {a: candidate.material.ranges[a] for a in candidate.material.arguments}
+    return {a: candidate.material.ranges[a] for a in candidate.material.arguments if a in candidate.material.ranges}
 
 
 def _number(value: float) -> str:
@@ -127,17 +129,17 @@ def _call(bundle: Bundle, candidate: Candidate) -> str:
     assert candidate.method is not None
     material, name = candidate.material, _function(bundle, candidate)
     np_ = bundle._import("import numpy as np", "np")
-    passed = []
-    for argument in material.quantity.arguments:
-        if argument in material.quantity.set and candidate.method.folds:
-            continue
+    passed = [
+        a if a in material.arguments else f"{np_}.full_like({material.arguments[0]}, {material.constants[a]!r})"
+        for a in material.running
+    ]
+    for argument in material.quantity.set if not candidate.method.folds else ():
         if argument.name in material.ranges:
             passed.append(argument.name)
-        elif argument in material.quantity.set and material.folded is not None:
+        elif material.folded is not None:
             passed.append(repr(material.constants[argument.name]))
         else:
-            first = material.arguments[0]
-            passed.append(f"{np_}.full_like({first}, {material.constants[argument.name]!r})")
+            passed.append(f"{np_}.full_like({material.arguments[0]}, {material.constants[argument.name]!r})")
     return f"{name}({', '.join(passed)})"
 
 
