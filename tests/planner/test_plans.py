@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 from xsec_sym import cli, kernels, plan
 from xsec_sym.planner.candidates import largest, points
-from xsec_sym.planner.plan import loaded
+from xsec_sym.planner.planning import loaded
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SEED = 20240229

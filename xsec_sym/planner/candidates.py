@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from xsec_sym.kernels._support import BLOCK
 from xsec_sym.planner import tables
 from xsec_sym.planner.scene import Material
 from xsec_sym.planner.tables import Table
@@ -23,7 +24,7 @@ from xsec_sym.study.points import TINY, Points, right, within
 
 # What is left of a tolerance for errors between the points that were tried.
 MARGIN = 2.0
-PROBES, FRESH, IN_TROUBLE = 200, 300, 12
+PROBES, FRESH, IN_TROUBLE = 160, 240, 12
 PROBE_SEED, FRESH_SEED = 11, 1213
 # Half a place of a float32, where a double is rounded to one.
 ROUNDED = 6e-8
@@ -197,7 +198,8 @@ def _candidate(
     if method.folds and material.folded is None and not general:
         ns, setup = math.nan, 0.0
     else:
-        ns, setup = _time(material, rows)
+        # what stands in `elementwise` runs on its blocks, however many values there are
+        ns, setup = _time(material, rows, material.evaluations if native else min(material.evaluations, BLOCK))
     error = _cells(material, rows)
     if error is not None and not native and material.dtype == "float32":
         error += ROUNDED
@@ -214,9 +216,8 @@ def _candidate(
     )
 
 
-def _time(material: Material, rows: list[dict[str, Any]]) -> tuple[float, float]:
-    """Nanoseconds a value with the set arguments as the material has them, in arrays of about as many as it needs."""
-    n = material.evaluations
+def _time(material: Material, rows: list[dict[str, Any]], n: int) -> tuple[float, float]:
+    """Nanoseconds a value with the set arguments as the material has them, in arrays of about n; seconds of set-up."""
     arrays = [r for r in rows if not r["fixed"]]
     constant = [r for r in rows if r["fixed"]]
     folded = material.folded if material.quantity.set else None

@@ -160,10 +160,7 @@ class Bundle:
         plain = found.__name__ if found.__name__ != "<lambda>" else ""
         name = self.fresh(wanted or plain or "function")
         self._bound[id(found)] = (found, name)
-        if found.__closure__:
-            cells = dict(zip(found.__code__.co_freevars, found.__closure__, strict=True))
-        else:
-            cells = {}
+        cells = dict(zip(found.__code__.co_freevars, found.__closure__ or (), strict=True))
         bound = {
             free: self.literal(cell.cell_contents, f"{name}_{free}".lstrip("_"))
             for free, cell in cells.items()

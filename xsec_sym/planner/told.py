@@ -6,7 +6,7 @@ from html import escape
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from xsec_sym.planner.plan import Plan, PlannedMaterial, Rejected
+    from xsec_sym.planner.planning import Plan, PlannedMaterial, Rejected
 
 HEAD = ("function", "method", "model", "expected error", "found error", "ns a value", "general kernel")
 # Of what was turned down, so many are told, the nearest to the choice first.

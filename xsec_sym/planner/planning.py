@@ -7,7 +7,6 @@ import math
 import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -207,8 +206,7 @@ def _chosen(
         kernel = general(registered(material.quantity.name), material, data)
     except Stale as stale:
         raise BadScene(str(stale)) from None
-    # the first are only needed where the stored cells are too wide
-    probes, fresh = cache(lambda: points(material, PROBE_SEED, PROBES)), points(material, FRESH_SEED, FRESH)
+    probes, fresh = points(material, PROBE_SEED, PROBES), points(material, FRESH_SEED, FRESH)
     rejected: list[Rejected] = []
     best: tuple[float, str] | None = None
     chosen: tuple[Candidate, float] | None = None
@@ -217,7 +215,7 @@ def _chosen(
         if not why:
             chosen = (candidate, error or 0.0)
             continue
-        rejected.append(Rejected(candidate.name, error, candidate.ns if candidate.ns == candidate.ns else None, why))
+        rejected.append(Rejected(candidate.name, error, None if math.isnan(candidate.ns) else candidate.ns, why))
         if error is not None and (best is None or error < best[0]) and not why.startswith(_UNWRITABLE):
             best = (error, candidate.name)
     if chosen is None:
@@ -237,7 +235,7 @@ def _with_kernel_first(every: list[Candidate], kernel: Candidate) -> list[Candid
 
     def cost(candidate: Candidate) -> tuple[bool, float]:
         hardly = GAIN * kernel.cost < candidate.cost < kernel.cost
-        return (not candidate.cost == candidate.cost, kernel.cost * (1 + 1e-12) if hardly else candidate.cost)
+        return (math.isnan(candidate.cost), kernel.cost * (1 + 1e-12) if hardly else candidate.cost)
 
     return sorted(every, key=cost)
 
@@ -255,12 +253,12 @@ def _judged(
     if chosen is not None:
         off = candidate.error is not None and not candidate.error <= material.tolerance
         return f"slower than {chosen[0].name}" + ", and its error is too large" * off, candidate.error
-    error = candidate.error
-    if error is None or not MARGIN * error <= material.tolerance:
-        # cells are wider than the ranges
-        error = max(candidate.least, largest(material, candidate.values(probes().columns), probes()))
-        if not MARGIN * error <= material.tolerance:
-            return "its error is too large", error
+    # cells are wider than the ranges, so that what fails there may be right here; and their points are few
+    error = max(candidate.least, largest(material, candidate.values(probes.columns), probes))
+    if not MARGIN * error <= material.tolerance:
+        return "its error is too large", error
+    if candidate.error is not None and MARGIN * candidate.error <= material.tolerance:
+        error = max(error, candidate.error)
     module = loaded(writing.module([candidate], [error], [math.nan], material.name))
     found = checked(module, material, fresh)
     if not found <= material.tolerance:
