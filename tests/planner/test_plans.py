@@ -12,8 +12,10 @@ import pytest
 from click.testing import CliRunner
 
 from xsec_sym import cli, kernels, plan
+from xsec_sym.planner import Scene
 from xsec_sym.planner.candidates import largest, points
 from xsec_sym.planner.planning import loaded
+from xsec_sym.study.files import DATA
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SEED = 20240229
@@ -37,6 +39,9 @@ def errors(found, n=60):
 
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda p: p.stem)
 def test_the_examples_keep_to_their_tolerances(path):
+    missing = [m.quantity.name for m in Scene.load(path).materials if not (DATA / f"{m.quantity.name}.json").exists()]
+    if missing:
+        pytest.skip(f"no stored measurements of {', '.join(missing)}")
     found = plan(path)
     assert found.materials
     for planned, error in errors(found):

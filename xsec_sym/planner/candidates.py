@@ -6,6 +6,7 @@ Errors are the stored ones, over the cells that the material's ranges meet, or a
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -26,6 +27,8 @@ from xsec_sym.study.points import TINY, Points, right, within
 MARGIN = 2.0
 PROBES, FRESH, IN_TROUBLE = 160, 240, 12
 PROBE_SEED, FRESH_SEED = 11, 1213
+# Seconds for the right values of a material, and points between two looks at the clock.
+SECONDS, BATCH = 8.0, 8
 # Half a place of a float32, where a double is rounded to one.
 ROUNDED = 6e-8
 # Kernels that give the logarithm where the quantity itself underflows.
@@ -120,7 +123,19 @@ def points(material: Material, seed: int, n: int) -> Points:
         # a float32 may round to what is outside; a constant is no argument, and is not rounded
         if low != high:
             columns[k] = _rounded_inward(columns[k], low, high, material.dtype)
-    return right(quantity, "scene", tuple(columns))
+    order = rng.permutation(columns[0].size)
+    return _as_far_as_time_allows(quantity, tuple(c[order] for c in columns))
+
+
+def _as_far_as_time_allows(quantity: Quantity, columns: Columns) -> Points:
+    """The right values at the first of the points: at all of them, unless a reference takes seconds for a few."""
+    start, parts = time.process_time(), []
+    for first in range(0, columns[0].size, BATCH):
+        parts.append(right(quantity, "scene", tuple(c[first : first + BATCH] for c in columns)))
+        if time.process_time() - start > SECONDS:
+            break
+    merged = tuple(np.concatenate(c) for c in zip(*(p.columns for p in parts), strict=True))
+    return Points("scene", merged, np.concatenate([p.high for p in parts]), np.concatenate([p.low for p in parts]))
 
 
 def _rounded_inward(x: np.ndarray, low: float, high: float, dtype: str) -> np.ndarray:

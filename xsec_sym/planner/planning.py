@@ -54,7 +54,7 @@ class PlannedMaterial:
     """What was chosen for a material; errors are relative or absolute, as its tolerance is.
 
     model: what is computed, the quantity itself or another in its place. expected_error: the largest known, with the
-    margin; found_error: that of the written module at fresh points. ns_general: the general kernel's time.
+    margin; found_error: that of the written module at `points` fresh points. ns_general: the general kernel's time.
     """
 
     material: Material
@@ -65,6 +65,7 @@ class PlannedMaterial:
     found_error: float
     ns_per_value: float
     ns_general: float
+    points: int
     rejected: tuple[Rejected, ...]
 
     @property
@@ -92,6 +93,7 @@ class PlannedMaterial:
             "dtype": self.material.dtype,
             "expected_error": _short(self.expected_error),
             "found_error": _short(self.found_error),
+            "points": self.points,
             "ns_per_value": _short(self.ns_per_value),
             "ns_general": _short(self.ns_general),
             "rejected": [
@@ -176,6 +178,7 @@ def plan(scene: str | Path | Mapping[str, Any] | Scene, measure: bool = False, t
                 found,
                 candidate.ns,
                 kernel.ns,
+                len(fresh),
                 tuple(rejected),
             )
         )
