@@ -28,7 +28,7 @@ MARGIN = 2.0
 PROBES, FRESH, IN_TROUBLE = 160, 240, 12
 PROBE_SEED, FRESH_SEED = 11, 1213
 # Seconds for the right values of a material, and points between two looks at the clock.
-SECONDS, BATCH = 8.0, 8
+SECONDS, BATCH = 4.0, 4
 # Half a place of a float32, where a double is rounded to one.
 ROUNDED = 6e-8
 # Kernels that give the logarithm where the quantity itself underflows.

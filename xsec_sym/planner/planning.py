@@ -246,7 +246,7 @@ def _with_kernel_first(every: list[Candidate], kernel: Candidate) -> list[Candid
 def _judged(
     material: Material,
     candidate: Candidate,
-    probes: Callable[[], Points],
+    probes: Points,
     fresh: Points,
     chosen: tuple[Candidate, float] | None,
 ) -> tuple[str, float | None]:
