@@ -1,8 +1,8 @@
 """A paper's equations go in; verdicts, proofs, and the fastest verified code for a scene come out.
 
 >>> import xsec_sym
->>> sorted(set(dir(xsec_sym)) & {"check", "cross_section", "kernels", "ledger"})
-['check', 'cross_section', 'kernels', 'ledger']
+>>> sorted(set(dir(xsec_sym)) & {"check", "cross_section", "kernels", "ledger", "plan"})
+['check', 'cross_section', 'kernels', 'ledger', 'plan']
 """
 
 from __future__ import annotations
@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from xsec_sym import kernels
     from xsec_sym.kernels.ring_lemma import cross_section
+    from xsec_sym.planner import plan
     from xsec_sym.proof.limits import check
     from xsec_sym.record import ledger
 
 __version__ = "0.1.0"
-__all__ = ["check", "cross_section", "kernels", "ledger"]
+__all__ = ["check", "cross_section", "kernels", "ledger", "plan"]
 
 # Nothing is imported before it is asked for: the kernels do without SymPy, and a glance at the record without either.
 _HOME = {
@@ -25,6 +26,7 @@ _HOME = {
     "cross_section": "xsec_sym.kernels.ring_lemma",
     "kernels": "",
     "ledger": "xsec_sym.record.store",
+    "plan": "xsec_sym.planner",
 }
 
 

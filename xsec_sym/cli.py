@@ -370,5 +370,41 @@ def _exportable(exporter: Any) -> list[str]:
     return [f"{e.id}  {e.title}" for e in _ledger(None).values() if e.kind == "equation" and e.verdict in holds]
 
 
+@main.command()
+@click.argument("scene", metavar="SCENE.toml")
+@click.option("-o", "target", metavar="FILE", help="The module to write, with a function for each material.")
+@click.option("--json", "report", metavar="FILE", help="Write the choices, and what was turned down, as JSON.")
+@click.option("--measure", is_flag=True, help="Measure on this machine first, which takes minutes a quantity.")
+def plan(scene: str, target: str | None, report: str | None, measure: bool) -> None:
+    """Choose the cheapest kernels that keep to a scene's tolerances, write them as one module, and check it."""
+    from xsec_sym.planner import BadScene, Unmet
+    from xsec_sym.planner import plan as planned
+    from xsec_sym.record.files import layout
+
+    with _output(target) as out, _output(report) as told, _saying() as tick:
+        try:
+            found = planned(scene, measure=measure, tick=tick)
+        except (BadScene, Unmet) as error:
+            complain(error)
+        if out is not None:
+            out.write(found.source)
+        if told is not None:
+            told.write(layout(found.as_dict()) + "\n")
+    for line in found.lines():
+        click.echo(line)
+
+
+@contextlib.contextmanager
+def _saying() -> Iterator[Callable[[str], None]]:
+    """What is being done, in one line of a terminal that is written over."""
+    if not sys.stderr.isatty():
+        yield lambda said: None
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status("") as status:
+        yield lambda said: status.update(said)
+
+
 if __name__ == "__main__":
     main()
