@@ -24,6 +24,7 @@ ROOT_PI = np.sqrt(np.pi)
 # Where the rational fit of Beckmann's masking ends.
 END = 1.6
 ALPHA = decades(-4, 4, parts=2)
+USUAL = {"alpha": (0.01, 3.16)}
 
 
 def slope(u: Any, alpha: Any) -> Any:
@@ -60,6 +61,7 @@ BECKMANN = Quantity(
     "Smith's Lambda of Beckmann's distribution",
     running=(cosine(both=False),),
     set=(ALPHA,),
+    usual=USUAL,
     reference=reference.lambda_beckmann,
     trouble={
         "1.548 < a < 1.6": slopes(1.548, END),
@@ -164,6 +166,7 @@ GGX = Quantity(
     "Smith's Lambda of GGX",
     running=(cosine(both=False),),
     set=(ALPHA,),
+    usual=USUAL,
     reference=reference.lambda_ggx,
     trouble={"alpha tan < 1e-3": small, "horizon": horizon, "axis": axis},
     typical=((0.1,), (0.5,)),

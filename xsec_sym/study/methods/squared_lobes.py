@@ -17,6 +17,7 @@ from xsec_sym.study.references import squared_lobes as reference
 # --- the spheroid -----------------------------------------------------------------------------------------
 
 ALPHA = decades(-4, 0, parts=4)
+USUAL = {"alpha": (0.01, 1.0)}
 
 
 def peak(rng: np.random.Generator, n: int) -> Columns:
@@ -34,6 +35,7 @@ SSL = Quantity(
     "squared spheroidal lobe",
     running=(cosine("cos_theta"),),
     set=(ALPHA,),
+    usual=USUAL,
     reference=reference.ssl,
     trouble={
         "peak": peak,
@@ -169,6 +171,7 @@ SEL = Quantity(
     "squared ellipsoidal lobe",
     running=(Argument("theta", ANGLES), Argument("phi", (0.0, np.pi, 2 * np.pi))),
     set=(decades(-4, 0, parts=1, name="alpha_x"), decades(-4, 0, parts=1, name="alpha_y")),
+    usual={"alpha_x": (0.01, 1.0), "alpha_y": (0.01, 1.0)},
     reference=reference.sel,
     trouble={"peak": sharp_peak, "behind": behind, "alpha_x = alpha_y": round_lobe},
     typical=((0.1, 0.1), (0.5, 0.05)),

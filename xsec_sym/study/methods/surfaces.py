@@ -20,6 +20,7 @@ from xsec_sym.study.methods.rings import clamped_cosine, even_orders
 from xsec_sym.study.references import surfaces as reference
 
 ALPHA = decades(-4, 4, parts=2)
+USUAL = {"alpha": (0.01, 3.16)}
 ROOT_PI = np.sqrt(np.pi)
 
 
@@ -67,6 +68,7 @@ BECKMANN = Quantity(
     "cross-section of Beckmann's distribution",
     running=(cosine(),),
     set=(ALPHA,),
+    usual=USUAL,
     reference=reference.sigma_beckmann,
     trouble={"grazing": grazing(ALPHA), "facing": facing(ALPHA), "dark side": in_the_dark},
     typical=((0.1,), (0.5,)),
@@ -175,6 +177,7 @@ GGX = Quantity(
     "cross-section of GGX",
     running=(cosine(),),
     set=(ALPHA,),
+    usual=USUAL,
     reference=reference.sigma_ggx,
     trouble={"grazing": grazing(ALPHA), "facing": facing(ALPHA), "alpha tan < 1e-3": small},
     typical=((0.1,), (0.5,)),
