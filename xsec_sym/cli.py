@@ -356,5 +356,36 @@ def _exportable(exporter: Any) -> list[str]:
     return [f"{e.id}  {e.title}" for e in _ledger(None).values() if e.kind == "equation" and e.verdict in holds]
 
 
+@main.command()
+@click.option("-o", "target", metavar="DIR", default="report", show_default=True, help="The folder to write.")
+def report(target: str) -> None:
+    """Write the whole record as a static page that is read offline.
+
+    An earlier report is replaced; a folder that holds anything else is not touched.
+    """
+    from xsec_sym.report import NotAReport, build
+
+    with _stages() as tick:
+        try:
+            index = build(target, _ledger(None), tick)
+        except NotAReport as error:
+            complain(error)
+        except OSError as error:
+            complain(f"cannot write {target}: {error.strerror or error}")
+    click.echo(str(index))
+
+
+@contextlib.contextmanager
+def _stages() -> Iterator[Callable[[str], None]]:
+    """What is being done, on a terminal."""
+    if not sys.stderr.isatty():
+        yield lambda said: None
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status("") as status:
+        yield status.update
+
+
 if __name__ == "__main__":
     main()

@@ -1,0 +1,107 @@
+"""What differs between two formulas, made visible in both."""
+
+from __future__ import annotations
+
+from difflib import SequenceMatcher
+from xml.etree import ElementTree
+
+from xsec_sym.report.formula import ROWS, Node
+
+GONE, NEW = "gone", "new"
+# Stands where the print lacks something.
+GAP = "gap"
+
+
+def mark(printed: Node, corrected: Node) -> None:
+    """Give the parts of one tree that the other has not the class "gone", and "new" the other way round.
+
+    Where the print lacks something between its parts, it gets a mark of the class "gap".
+
+    >>> from xsec_sym.report.formula import tree
+    >>> one, other = tree("a + b x"), tree("a - b x^2")
+    >>> mark(one, other)
+    >>> [(n.text, n.get("class")) for n in one.iter() if n.get("class")]
+    [('+', 'gone')]
+    >>> [(n.text, n.get("class")) for n in other.iter() if n.get("class")]
+    [('−', 'new'), ('2', 'new')]
+    """
+    if _same(printed, corrected):
+        return
+    if printed.tag == corrected.tag and len(printed) and printed.tag in ROWS:
+        _rows(printed, corrected)
+    elif printed.tag == corrected.tag and len(printed) == len(corrected) > 0:
+        for one, other in zip(printed, corrected, strict=True):
+            mark(one, other)
+    elif not (_wraps(corrected, printed, NEW) or _wraps(printed, corrected, GONE)):
+        _flag([printed], GONE)
+        _flag([corrected], NEW)
+
+
+def marked(node: Node) -> list[Node]:
+    return [n for n in node.iter() if n.get("class") in (GONE, NEW, GAP)]
+
+
+def _text(node: Node) -> str:
+    return ElementTree.tostring(node, encoding="unicode")
+
+
+def _same(one: Node, other: Node) -> bool:
+    return _text(one) == _text(other)
+
+
+def _flag(nodes: list[Node], word: str) -> None:
+    for node in nodes:
+        if node.tag != "mspace":
+            node.set("class", word)
+
+
+def _wraps(outer: Node, inner: Node, word: str) -> bool:
+    """Where one is the other with something about it, such as an exponent or bars, only that is marked."""
+    children = list(outer)
+    inside = list(inner) if (inner.tag, outer.tag) in (("mrow", outer.tag), ("msub", "msubsup")) else [inner]
+    texts, wanted = [_text(c) for c in children], [_text(c) for c in inside]
+    for start in range(len(children) - len(wanted) + 1):
+        if texts[start : start + len(wanted)] == wanted and len(wanted) < len(texts):
+            _flag(children[:start] + children[start + len(wanted) :], word)
+            return True
+    return False
+
+
+def _rows(printed: Node, corrected: Node) -> None:
+    ones, others = list(printed), list(corrected)
+    texts = [[_text(n) for n in row] for row in (ones, others)]
+    gaps = []
+    for action, i, i_end, j, j_end in SequenceMatcher(None, *texts, autojunk=False).get_opcodes():
+        if action == "equal":
+            continue
+        here, there = ones[i:i_end], others[j:j_end]
+        for one, other in _paired(here, there):
+            mark(one, other)
+            here = [n for n in here if n is not one]
+            there = [n for n in there if n is not other]
+        _flag(here, GONE)
+        _flag(there, NEW)
+        if action == "insert":
+            gaps.append(i)
+    for place in reversed(gaps):
+        printed.insert(place, Node("mspace", {"class": GAP, "width": "0.16em", "height": "0.7em", "depth": "0.2em"}))
+
+
+def _paired(ones: list[Node], others: list[Node]) -> list[tuple[Node, Node]]:
+    """Which parts of two unequal runs stand for each other: in order, those that are most alike."""
+    found: list[tuple[Node, Node]] = []
+    start = 0
+    for one in ones:
+        rated = [(_alike(one, other), -place) for place, other in enumerate(others) if place >= start]
+        if rated and max(rated)[0] >= 0.5:
+            place = -max(rated)[1]
+            found.append((one, others[place]))
+            start = place + 1
+    return found
+
+
+def _alike(one: Node, other: Node) -> float:
+    if len(one) == 0 and len(other) == 0:
+        return 0.0
+    texts = [[n.tag + (n.text or "") for n in node.iter()] for node in (one, other)]
+    return SequenceMatcher(None, *texts, autojunk=False).ratio()
