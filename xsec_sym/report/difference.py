@@ -5,7 +5,7 @@ from __future__ import annotations
 from difflib import SequenceMatcher
 from xml.etree import ElementTree
 
-from xsec_sym.report.formula import ROWS, Node
+from xsec_sym.report.formula import ROWS, Node, fenced
 
 GONE, NEW = "gone", "new"
 # Stands where the print lacks something.
@@ -30,8 +30,11 @@ def mark(printed: Node, corrected: Node) -> None:
     if printed.tag == corrected.tag and len(printed) and printed.tag in ROWS:
         _rows(printed, corrected)
     elif printed.tag == corrected.tag and len(printed) == len(corrected) > 0:
-        for one, other in zip(printed, corrected, strict=True):
-            mark(one, other)
+        for place in range(len(printed)):
+            if "mrow" in (printed[place].tag, corrected[place].tag):
+                _as_row(printed, place)
+                _as_row(corrected, place)
+            mark(printed[place], corrected[place])
     elif not (_wraps(corrected, printed, NEW) or _wraps(printed, corrected, GONE)):
         _flag([printed], GONE)
         _flag([corrected], NEW)
@@ -67,11 +70,31 @@ def _wraps(outer: Node, inner: Node, word: str) -> bool:
     return False
 
 
+def _holds(outer: Node, inner: Node, word: str) -> bool:
+    """Where one row has become a part of the only thing in the other, such as a numerator, the rest is marked."""
+    if len(outer) != 1 or len(inner) < 2 or fenced(inner):
+        return False
+    rated = [(_alike(part, inner), place) for place, part in enumerate(outer[0]) if part.tag == "mrow"]
+    if not rated or max(rated)[0] < 0.8:
+        return False
+    place = max(rated)[1]
+    _flag([part for k, part in enumerate(outer[0]) if k != place], word)
+    _rows(*((inner, outer[0][place]) if word == NEW else (outer[0][place], inner)))
+    return True
+
+
+def _as_row(parent: Node, place: int) -> None:
+    if parent[place].tag != "mrow" or fenced(parent[place]):
+        row = Node("mrow")
+        row.append(parent[place])
+        parent[place] = row
+
+
 def _rows(printed: Node, corrected: Node) -> None:
     ones, others = list(printed), list(corrected)
-    texts = [[_text(n) for n in row] for row in (ones, others)]
+    texts, wanted = [_text(n) for n in ones], [_text(n) for n in others]
     gaps = []
-    for action, i, i_end, j, j_end in SequenceMatcher(None, *texts, autojunk=False).get_opcodes():
+    for action, i, i_end, j, j_end in SequenceMatcher(None, texts, wanted, autojunk=False).get_opcodes():
         if action == "equal":
             continue
         here, there = ones[i:i_end], others[j:j_end]
@@ -103,5 +126,5 @@ def _paired(ones: list[Node], others: list[Node]) -> list[tuple[Node, Node]]:
 def _alike(one: Node, other: Node) -> float:
     if len(one) == 0 and len(other) == 0:
         return 0.0
-    texts = [[n.tag + (n.text or "") for n in node.iter()] for node in (one, other)]
-    return SequenceMatcher(None, *texts, autojunk=False).ratio()
+    here, there = ([n.tag + (n.text or "") for n in node.iter()] for node in (one, other))
+    return SequenceMatcher(None, here, there, autojunk=False).ratio()

@@ -63,24 +63,17 @@ def set_(latex: str, display: bool = True) -> str:
     return written(tree(latex), display)
 
 
-def equation(left: Node | None, right: Node | None, sign: str = "=") -> Node:
-    """Both sides in one formula."""
-    whole = Node("math")
-    if left is not None:
-        whole.append(_row(left))
+def equation(left: Node | None, right: Node | None) -> str:
+    """Both sides as texts, one after the other: a narrow page puts them on two lines.
+
+    >>> equation(tree("a"), tree("b"))
+    '<math display="block"><mi>a</mi></math><math display="block"><mo form="infix">=</mo><mi>b</mi></math>'
+    """
     if left is not None and right is not None:
-        mo = Node("mo")
-        mo.text = sign
-        whole.append(mo)
-    if right is not None:
-        whole.append(_row(right))
-    return whole
-
-
-def _row(math: Node) -> Node:
-    row = Node("mrow")
-    row.extend(math)
-    return row
+        sign = Node("mo", {"form": "infix"})
+        sign.text = "="
+        right.insert(0, sign)
+    return "".join(written(side) for side in (left, right) if side is not None)
 
 
 # --- what the converter cannot read --------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from xsec_sym.record.show import MEANING, MEASURED
 from xsec_sym.report import words
 from xsec_sym.report.code import Code
 from xsec_sym.report.difference import mark
-from xsec_sym.report.formula import equation, tree, written
+from xsec_sym.report.formula import equation, tree
 from xsec_sym.report.papers import place
 
 # Verdicts as the index counts them: a heading, and the words under it.
@@ -99,7 +99,7 @@ class Item:
         return [(heading, kind, self._equation(None if right is None else tree(right)))]
 
     def _equation(self, right: Any) -> Markup:
-        return Markup(written(equation(tree(self.entry.left) if self.entry.left else None, right)))
+        return Markup(equation(tree(self.entry.left) if self.entry.left else None, right))
 
     # --- facts ------------------------------------------------------------------------------------------
 

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from xsec_sym.record.entry import Entry
 
 ROWS = {
-    "1": "1", "u": "x", "u2": "x^{2}", "u4": "x^{4}", "even": r"x^{p},\ p \text{ even}", "odd": r"x^{p},\ p \text{ odd}",
+    "1": "1", "u": "x", "u2": "x^{2}", "u4": "x^{4}",
+    "even": r"x^{p},\ p \text{ even}", "odd": r"x^{p},\ p \text{ odd}",
     "inv1p": r"\frac{1}{1 + x}", "inv1m": r"\frac{1}{1 - x}", "inv1m2": r"\frac{1}{(1 - x)^{2}}",
     "inv1pu2": r"\frac{1}{1 + x^{2}}",
 }  # fmt: skip

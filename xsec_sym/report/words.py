@@ -52,7 +52,7 @@ def symbols(text: str) -> Markup:
     """
     said = Markup("")
     end = 0
-    for found in re.finditer(r"[A-Za-z]\w*|\*\*(\d+)|<=|>=|!=|[-*|&]", text):
+    for found in re.finditer(r"[A-Za-z]+_[+-]|[A-Za-z]\w*|\*\*(\d+)|<=|>=|!=|[-*|&]", text):
         power = Markup("<sup>{}</sup>").format(found[1]) if found[1] else _symbol(found[0])
         said += escape(text[end : found.start()]) + power
         end = found.end()
@@ -70,7 +70,8 @@ def _symbol(word: str) -> Markup:
         return escape(letter if not low else word)
     if not low and (tail := re.fullmatch(r"(\w)(\d+)", letter)):
         letter, low = tail[1], tail[2]
-    below = Markup("<sub>{}</sub>").format(GREEK.get(low, low)) if low else ""
+    low = SIGNS.get(low, GREEK.get(low, low))
+    below = Markup("<sub>{}</sub>").format(low) if low else ""
     return Markup("<i>{}{}</i>").format(letter, below)
 
 
