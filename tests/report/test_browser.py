@@ -9,7 +9,10 @@ CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
 pytestmark = pytest.mark.skipif(
     not (CHROMIUM and DRIVER), reason="no chromium with its driver here: apt-get install chromium chromium-driver"
 )
-OPTIONS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", "--allow-file-access-from-files=false"]
+OPTIONS = [
+    *("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-dev-shm-usage"),
+    *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
+]
 PAGES = ("index.html", "deon2016.html", "dupuy2016.html", "deon2021.html", "tokuyoshi_harada.html", "kenha2018.html",
          "xsec.html", "table1.html", "charts.html", "errata-deon2016.html")  # fmt: skip
 
@@ -189,7 +192,8 @@ def test_code_is_copied(browser):
     browser.run("arguments[0].click()", button)
     browser.driver.implicitly_wait(2)
     found = browser.driver.execute_async_script(
-        "const done = arguments[0]; setTimeout(() => navigator.clipboard.readText().then(done, (e) => done(String(e))), 300)"
+        "const done = arguments[0];"
+        "setTimeout(() => navigator.clipboard.readText().then(done, (e) => done(String(e))), 300)"
     )
     assert found.replace("\r\n", "\n") == wanted
     assert button.text == "copied"
@@ -230,7 +234,8 @@ def test_text_stands_out_from_its_ground(browser, page, scheme):
             }
             return "rgb(255, 255, 255)";
         };
-        return Math.min(...[...document.querySelectorAll("p, dd, dt, a, h1, h2, h3, .verdict, .chip, mi, mn")].slice(0, 3000)
+        const texts = [...document.querySelectorAll("p, dd, dt, a, h1, h2, h3, .verdict, .chip, mi, mn")];
+        return Math.min(...texts.slice(0, 3000)
             .filter((e) => e.checkVisibility())
             .map((e) => [light(getComputedStyle(e).color), light(ground(e))].sort((a, b) => b - a))
             .map(([a, b]) => (a + 0.05) / (b + 0.05)));""")

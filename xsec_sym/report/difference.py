@@ -28,8 +28,9 @@ def mark(printed: Node, corrected: Node) -> None:
     if _same(printed, corrected):
         return
     if printed.tag == corrected.tag and len(printed) and printed.tag in ROWS:
-        _rows(printed, corrected)
-    elif printed.tag == corrected.tag and len(printed) == len(corrected) > 0:
+        if not (_holds(corrected, printed, NEW) or _holds(printed, corrected, GONE)):
+            _rows(printed, corrected)
+    elif printed.tag == corrected.tag and len(printed) == len(corrected) > 0 and not _nested(printed, corrected):
         for place in range(len(printed)):
             if "mrow" in (printed[place].tag, corrected[place].tag):
                 _as_row(printed, place)
@@ -52,6 +53,15 @@ def _same(one: Node, other: Node) -> bool:
     return _text(one) == _text(other)
 
 
+def _part(whole: Node, part: Node) -> bool:
+    """A letter in a row says nothing: it occurs in many."""
+    return (len(part) > 0 or whole.tag not in ROWS) and any(_same(child, part) for child in whole)
+
+
+def _nested(one: Node, other: Node) -> bool:
+    return _part(one, other) or _part(other, one)
+
+
 def _flag(nodes: list[Node], word: str) -> None:
     for node in nodes:
         if node.tag != "mspace":
@@ -72,7 +82,7 @@ def _wraps(outer: Node, inner: Node, word: str) -> bool:
 
 def _holds(outer: Node, inner: Node, word: str) -> bool:
     """Where one row has become a part of the only thing in the other, such as a numerator, the rest is marked."""
-    if len(outer) != 1 or len(inner) < 2 or fenced(inner):
+    if len(outer) != 1 or len(inner) < 2 or fenced(inner) or _part(inner, outer[0]):
         return False
     rated = [(_alike(part, inner), place) for place, part in enumerate(outer[0]) if part.tag == "mrow"]
     if not rated or max(rated)[0] < 0.8:
@@ -126,5 +136,7 @@ def _paired(ones: list[Node], others: list[Node]) -> list[tuple[Node, Node]]:
 def _alike(one: Node, other: Node) -> float:
     if len(one) == 0 and len(other) == 0:
         return 0.0
+    if _nested(one, other):
+        return 1.0
     here, there = ([n.tag + (n.text or "") for n in node.iter()] for node in (one, other))
     return SequenceMatcher(None, here, there, autojunk=False).ratio()
