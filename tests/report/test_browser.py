@@ -182,6 +182,15 @@ def test_the_keyboard_reaches_what_can_be_done(browser):
     assert browser.find("details.derivation").get_attribute("open")
 
 
+def test_only_wide_formulas_are_stops_of_the_keyboard(browser):
+    browser.open("deon2021.html", width=375)
+    stops, over, all_ = browser.run("""
+        const boxes = [...document.querySelectorAll(".formula")];
+        return [boxes.filter((b) => b.tabIndex === 0).length, boxes.filter((b) => b.scrollWidth > b.clientWidth).length,
+                boxes.length];""")
+    assert 0 < stops == over < all_
+
+
 def test_code_is_copied(browser):
     browser.driver.execute_cdp_cmd("Browser.grantPermissions", {"permissions": ["clipboardReadWrite"]})
     browser.open("deon2016.html")

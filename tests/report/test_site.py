@@ -273,3 +273,24 @@ def test_a_failure_leaves_the_old_report(tmp_path, monkeypatch):
 
 def test_a_build_takes_less_than_half_a_minute(site):
     assert site.seconds < 30
+
+
+def test_the_command_says_where_the_page_is(tmp_path, monkeypatch):
+    from xsec_sym.report import site as module
+
+    monkeypatch.setattr(module, "charts", lambda folder: [])
+    monkeypatch.setattr(module, "codes", lambda record: {})
+    monkeypatch.chdir(tmp_path)
+    said = CliRunner().invoke(cli.main, ["report"])
+    assert said.exit_code == 0, said.output
+    assert said.output.strip() == str(tmp_path / "report" / "index.html")
+    said = CliRunner().invoke(cli.main, ["report", "-o", "/proc/nowhere/report"])
+    assert said.exit_code == 2 and said.output.count("\n") == 1
+
+
+@pytest.mark.parametrize("name", sorted({e.source for e in LEDGER.values()}))
+def test_every_step_is_shown(name, parsed):
+    page = parsed[f"{name}.html"]
+    shown = Counter(articles_of(e)[0]["attrs"]["id"] for e in page.elements if e["tag"] == "li" and
+                    any(w["attrs"].get("class") == "derivation" for w in e["within"]))  # fmt: skip
+    assert shown == {e.label: len(e.steps) for e in LEDGER.values() if e.source == name and e.steps}

@@ -109,12 +109,19 @@ def _within(entries: list[Entry]) -> list[Entry]:
             last, rank = number, 2
         own = 0 if entry.label == str(number) else 1
         keys[entry.id] = (last, own if number is not None else rank, place)
+    for entry in texts:
+        # a whole stands before its parts, though it is claimed after them
+        parts = [keys[p] for p in entry.parts if p in keys and p.startswith(f"{entry.id}.")]
+        if parts:
+            keys[entry.id] = min(keys[entry.id], (*min(parts)[:2], min(parts)[2] - 1))
     return sorted(texts, key=lambda e: keys[e.id]) + sorted(cells, key=_cell)
 
 
-def _cell(entry: Entry) -> tuple[int, int, int]:
-    _, row, column, *side = entry.label.split(".")
-    return list(ROWS).index(row), list(COLUMNS).index(column), list(SIDES).index(side[0]) + 1 if side else 0
+def _cell(entry: Entry) -> tuple[int, ...]:
+    """Row, column and side; what is not in the table stands last."""
+    names = entry.label.split(".")[1:]
+    kinds = (list(ROWS), list(COLUMNS), list(SIDES))
+    return tuple(k.index(n) + 1 if n in k else len(k) + 1 for n, k in zip(names, kinds, strict=False))
 
 
 def place(entry: Entry) -> str:

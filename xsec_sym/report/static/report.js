@@ -41,6 +41,17 @@
     });
   }
 
+  // --- formulas that are too wide can be scrolled by keyboard ----------------------------------
+  const reachable = () => {
+    const wide = all(".formula").map((box) => [box, box.scrollWidth > box.clientWidth]);
+    for (const [box, over] of wide) {
+      if (over) box.tabIndex = 0; else box.removeAttribute("tabindex");
+    }
+  };
+  let waiting = 0;
+  addEventListener("resize", () => { clearTimeout(waiting); waiting = setTimeout(reachable, 200); });
+  addEventListener("load", reachable);
+
   // --- search --------------------------------------------------------------------------------
   const search = $("#search");
   if (!search) return;
@@ -72,6 +83,7 @@
     for (const section of all("section.section")) section.hidden = !$("article.entry:not([hidden])", section);
     shown.textContent = count === entries.length ? `${count} entries` : `${count} of ${entries.length} entries shown`;
     $("#nothing").hidden = count > 0;
+    reachable();
   };
   const reach = () => { // a link leads to its entry, whatever is filtered
     const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
