@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
-.PHONY: verify verify-fresh test lint bench chart walk notebooks generate clean
+.PHONY: verify verify-fresh test lint bench chart walk report notebooks generate clean
 
 $(READY): pyproject.toml constraints.txt
 	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed") if sys.version_info < (3, 11) else None'
@@ -37,17 +37,22 @@ chart: $(READY)
 walk: $(READY)
 	$(BIN)/python -m xsec_sym.walks
 
+# Writes the record as a static page; open report/index.html.
+report: $(READY)
+	$(BIN)/xsec report
+
 notebooks: $(READY)
 	$(BIN)/python -m pytest tests/test_notebooks.py
 
 # Writes the generated kernels anew from the recorded verdicts, and the tables of H, of the spherical Gaussian and of the
-# fits; tests compare them with what is committed.
+# fits; tests compare them with what is committed. Last, the code of every entry for the report, which takes minutes.
 generate: $(READY)
 	$(BIN)/python -m xsec_sym.export
 	$(BIN)/python -m xsec_sym.export.isotropic
 	$(BIN)/python -m xsec_sym.export.spherical_gaussian
 	$(BIN)/python -m xsec_sym.export.spherical_gaussian_slopes
 	$(BIN)/python -m xsec_sym.export.lambert_sphere_fits
+	$(BIN)/python -m xsec_sym.report.code
 
 clean:
 	rm -rf .venv build *.egg-info

@@ -394,6 +394,25 @@ def plan(scene: str, target: str | None, report: str | None, measure: bool) -> N
         click.echo(line)
 
 
+@main.command()
+@click.option("-o", "target", metavar="DIR", default="report", show_default=True, help="The folder to write.")
+def report(target: str) -> None:
+    """Write the whole record as a static page that is read offline.
+
+    An earlier report is replaced; a folder that holds anything else is not touched.
+    """
+    from xsec_sym.report import NotAReport, build
+
+    with _saying() as tick:
+        try:
+            index = build(target, _ledger(None), tick)
+        except NotAReport as error:
+            complain(error)
+        except OSError as error:
+            complain(f"cannot write {target}: {error.strerror or error}")
+    click.echo(str(index))
+
+
 @contextlib.contextmanager
 def _saying() -> Iterator[Callable[[str], None]]:
     """What is being done, in one line of a terminal that is written over."""

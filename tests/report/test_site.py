@@ -1,0 +1,296 @@
+"""The pages against the record, read with a parser that shares nothing with what wrote them."""
+
+import json
+import re
+import warnings
+from collections import Counter
+from html.parser import HTMLParser
+from urllib.parse import unquote, urlsplit
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from xsec_sym import cli
+from xsec_sym.record.store import Ledger
+from xsec_sym.report import NotAReport, build
+from xsec_sym.report.site import MARK
+
+LEDGER = Ledger()
+VOID = {"meta", "link", "input", "br", "img", "hr", "mspace", "rect"}
+
+
+class Page(HTMLParser):
+    """Elements in order, and where each begins and ends."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.elements, self.open, self.faults = [], [], []
+        self.feed(text)
+        self.close()
+        assert not self.open and not self.faults, (self.open[:3], self.faults[:3])
+
+    def handle_starttag(self, tag, attrs):
+        node = {"tag": tag, "attrs": dict(attrs), "within": list(self.open), "text": ""}
+        self.elements.append(node)
+        if tag not in VOID:
+            self.open.append(node)
+
+    def handle_startendtag(self, tag, attrs):
+        self.elements.append({"tag": tag, "attrs": dict(attrs), "within": list(self.open), "text": ""})
+
+    def handle_endtag(self, tag):
+        if tag in VOID:
+            return
+        if not self.open or self.open[-1]["tag"] != tag:
+            self.faults.append(tag)
+        else:
+            self.open.pop()
+
+    def handle_data(self, data):
+        for node in self.open:
+            node["text"] += data
+
+    def of_class(self, name):
+        return [e for e in self.elements if name in e["attrs"].get("class", "").split()]
+
+    @property
+    def ids(self):
+        return [e["attrs"]["id"] for e in self.elements if "id" in e["attrs"]]
+
+    @property
+    def links(self):
+        return [e["attrs"][key] for e in self.elements for key in ("href", "src") if key in e["attrs"]]
+
+
+@pytest.fixture(scope="session")
+def parsed(site):
+    return {name: Page(site.text(name)) for name in site.pages}
+
+
+def test_every_link_and_anchor_resolves(site, parsed):
+    tried = 0
+    for name, page in parsed.items():
+        for link in page.links:
+            parts = urlsplit(link)
+            assert not parts.scheme and not parts.netloc, f"{name} leaves the folder: {link}"
+            target = parts.path or name
+            assert (site.folder / target).is_file(), f"{name}: {link}"
+            if parts.fragment:
+                assert unquote(parts.fragment) in parsed[target].ids, f"{name}: {link}"
+            tried += 1
+    assert tried > 2000
+
+
+def test_ids_are_unique(parsed):
+    for name, page in parsed.items():
+        twice = [i for i, n in Counter(page.ids).items() if n > 1]
+        assert not twice, name
+
+
+def articles(page):
+    return [e for e in page.elements if e["tag"] == "article" and "entry" in e["attrs"].get("class", "").split()]
+
+
+def test_every_entry_is_on_the_page_of_its_source_with_its_verdict(parsed):
+    for key in {name.partition(":")[0] for name in LEDGER}:
+        shown = {f"{key}:{a['attrs']['id']}": a["attrs"]["data-verdict"] for a in articles(parsed[f"{key}.html"])}
+        assert shown == {e.id: e.verdict for e in LEDGER.values() if e.source == key}
+
+
+def test_sections_and_numbers_are_in_the_paper_s_order(parsed):
+    labels = [a["attrs"]["id"] for a in articles(parsed["deon2016.html"])]
+    numbers = [label for label in labels if label.isdigit()]
+    assert numbers == sorted(numbers, key=int) and len(numbers) == 44
+    for key in ("deon2021", "dupuy2016"):
+        sections = [e["text"] for e in parsed[f"{key}.html"].elements if e["tag"] == "h2"]
+        assert sections == sorted(sections, key=lambda s: [int(n) for n in re.findall(r"\d+", s)])
+
+
+def test_the_index_counts_as_the_record_does(parsed):
+    groups = {"misprinted": ["misprint"], "infinite": ["divergent"], "definitions": ["definition"],
+              "beyond computation": ["out-of-scope"], "claims that hold": ["claim-holds"],
+              "claims that fail": ["claim-fails"], "not settled": ["refuted", "inconclusive", "timeout"]}  # fmt: skip
+    shown = {}
+    for chip in parsed["index.html"].of_class("count"):
+        source = chip["attrs"]["href"].partition(".html")[0]
+        shown[source, chip["attrs"]["data-group"]] = int(chip["text"].split()[0])
+    expected = Counter()
+    for e in LEDGER.values():
+        group = next((g for g, words in groups.items() if e.verdict in words), e.verdict)
+        expected[e.source, group] += 1
+    assert shown == expected
+    assert sum(shown.values()) == len(LEDGER)
+
+
+@pytest.mark.parametrize("key", sorted({e.source for e in LEDGER.values()}))
+def test_errata_hold_exactly_the_misprints(site, parsed, key):
+    wrong = {e.label for e in LEDGER.values() if e.source == key and e.verdict == "misprint"}
+    name = f"errata-{key}.html"
+    assert (site.folder / name).exists() == bool(wrong)
+    if wrong:
+        assert {e["attrs"]["id"] for e in parsed[name].of_class("erratum")} == wrong
+
+
+def test_every_misprint_shows_a_difference_and_where_it_fails(parsed):
+    pages = {key: parsed[key] for key in parsed if key.startswith("errata-")}
+    tried = 0
+    for name, page in pages.items():
+        for item in page.of_class("erratum"):
+            entry = LEDGER[f"{name[7:-5]}:{item['attrs']['id']}"]
+            if entry.corrected is None:
+                assert entry.parts
+                continue
+            inside = [e for e in page.elements if item in e["within"]]
+            marked = [e for e in inside if e["attrs"].get("class") in ("gone", "new", "gap")]
+            assert marked, entry.id
+            # a difference that covers the whole formula shows nothing
+            tokens = [e for e in inside if e["tag"] in ("mi", "mn", "mo")]
+            lit = [e for e in tokens if e in marked or any(w in marked for w in e["within"])]
+            assert len(lit) < len(tokens) / 2, entry.id
+            assert entry.edit.split()[0] in item["text"] and "fails at" in item["text"]
+            tried += 1
+    assert tried == sum(e.verdict == "misprint" and e.corrected is not None for e in LEDGER.values())
+
+
+def test_every_formula_is_set_as_mathml(parsed):
+    for key in {e.source for e in LEDGER.values()}:
+        page = parsed[f"{key}.html"]
+        with_math = {w["attrs"]["id"] for e in page.elements if e["tag"] == "math" for w in articles_of(e)}
+        wanted = {e.label for e in LEDGER.values() if e.source == key and (e.left or e.printed or e.corrected)}
+        assert with_math == wanted
+        letters = [e["text"] for e in page.elements if e["tag"] in ("mi", "mo", "mn", "mtext")]
+        assert letters and not [text for text in letters if "\\" in text or "_" in text]
+
+
+def articles_of(element):
+    return [w for w in element["within"] if w["tag"] == "article"]
+
+
+def test_uses_and_used_by_are_each_other(parsed):
+    uses, users = set(), set()
+    for key in {e.source for e in LEDGER.values()}:
+        page = parsed[f"{key}.html"]
+        for e in page.elements:
+            if e["tag"] == "a" and any(w["attrs"].get("class") == "links" for w in e["within"]):
+                here = f"{key}:{articles_of(e)[0]['attrs']['id']}"
+                paragraph = next(w for w in e["within"] if w["attrs"].get("class") == "links")
+                if paragraph["text"].startswith("used by"):
+                    users.add((e["text"], here))
+                else:
+                    uses.add((here, e["text"]))
+    assert uses == users
+    assert ("deon2016:22", "deon2016:20") in uses
+
+
+def test_certificates_are_those_of_the_record(site):
+    files = {p.relative_to(site.folder / "certificates").as_posix() for p in site.folder.rglob("certificates/*/*.json")}
+    proved = {name for name in LEDGER if LEDGER.certificate(name) is not None}
+    assert files == {name.replace(":", "/") + ".json" for name in proved} and proved
+    held = json.loads(site.text("certificates/deon2016/22.json"))
+    assert held == LEDGER.certificate("deon2016:22")
+
+
+def test_table_1_is_complete(parsed):
+    rows = ["1", "u", "u2", "u4", "even", "odd", "inv1p", "inv1m", "inv1m2", "inv1pu2"]
+    page = parsed["table1.html"]
+    cells = [e for e in page.elements if e["tag"] == "td"]
+    assert [c["attrs"]["id"] for c in cells] == [
+        f"T1.{row}.{column}" for row in rows for column in ["s1", "s2", "s3", "s"]
+    ]
+    filled = {c["attrs"]["id"] for c in cells if "cell-filled" in c["attrs"]["class"]}
+    blank = (
+        "u4.s3 even.s3 even.s inv1p.s1 inv1p.s3 inv1p.s inv1m.s1 inv1m.s3 inv1m.s inv1m2.s1 inv1m2.s3 inv1m2.s "
+        "inv1pu2.s3 inv1pu2.s"
+    )
+    assert filled == {f"T1.{name}" for name in blank.split()}
+    assert all(any(e["tag"] == "math" and c in e["within"] for e in page.elements) for c in cells)
+
+
+def test_the_code_that_is_shown_runs(parsed):
+    shown = 0
+    for name, page in parsed.items():
+        for e in page.elements:
+            if e["tag"] != "code" or not any(w["attrs"].get("class") == "source" for w in e["within"]):
+                continue
+            shown += 1
+            if shown % 10:
+                compile(e["text"], name, "exec")
+                continue
+            space = {}
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                exec(e["text"], space)
+            assert any(callable(f) for n, f in space.items() if not n.startswith("_") and n != "np")
+    assert shown > 200
+    code = next(
+        e["text"] for e in parsed["deon2016.html"].elements if e["tag"] == "code" and "sigma_inv1pu2(" in e["text"]
+    )
+    space = {}
+    exec(code, space)
+    # by the definition at the pole: the clamped cosine against D = 1 / (1 + x^2)
+    x = np.linspace(0, 1, 100_001)
+    assert np.isclose(space["sigma_inv1pu2"](1.0), np.trapezoid(2 * np.pi * x / (1 + x**2), x), rtol=1e-8)
+
+
+def test_two_builds_are_equal_and_a_report_replaces_a_report(site, tmp_path):
+    (tmp_path / "again" / "certificates").mkdir(parents=True)
+    (tmp_path / "again" / "certificates" / "gone.json").write_text("{}")
+    (tmp_path / "again" / MARK).write_text("an earlier one")
+    build(tmp_path / "again")
+    here, there = ({p.relative_to(f): p.read_bytes() for p in f.rglob("*") if p.is_file()}
+                   for f in (site.folder, tmp_path / "again"))  # fmt: skip
+    assert here.keys() == there.keys()
+    assert [p for p in here if here[p] != there[p]] == []
+    assert [p.name for p in tmp_path.iterdir()] == ["again"]
+
+
+def test_what_is_no_report_is_not_touched(tmp_path):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "letter.txt").write_text("keep me")
+    (tmp_path / "file").write_text("keep me too")
+    for name in ("mine", "file"):
+        said = CliRunner().invoke(cli.main, ["report", "-o", str(tmp_path / name)])
+        assert said.exit_code == 2 and said.output.count("\n") == 1
+        with pytest.raises(NotAReport):
+            build(tmp_path / name)
+    assert (tmp_path / "mine" / "letter.txt").read_text() == "keep me"
+    assert (tmp_path / "file").read_text() == "keep me too"
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["file", "mine"]
+
+
+def test_a_failure_leaves_the_old_report(tmp_path, monkeypatch):
+    from xsec_sym.report import site as module
+
+    target = tmp_path / "report"
+    target.mkdir()
+    (target / module.MARK).write_text("old")
+    monkeypatch.setattr(module, "charts", lambda folder: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        build(target)
+    assert [p.name for p in target.iterdir()] == [module.MARK] and [p.name for p in tmp_path.iterdir()] == ["report"]
+
+
+def test_a_build_takes_less_than_half_a_minute(site):
+    assert site.seconds < 30
+
+
+def test_the_command_says_where_the_page_is(tmp_path, monkeypatch):
+    from xsec_sym.report import site as module
+
+    monkeypatch.setattr(module, "charts", lambda folder: [])
+    monkeypatch.setattr(module, "codes", lambda record: {})
+    monkeypatch.chdir(tmp_path)
+    said = CliRunner().invoke(cli.main, ["report"])
+    assert said.exit_code == 0, said.output
+    assert said.output.strip() == str(tmp_path / "report" / "index.html")
+    said = CliRunner().invoke(cli.main, ["report", "-o", "/proc/nowhere/report"])
+    assert said.exit_code == 2 and said.output.count("\n") == 1
+
+
+@pytest.mark.parametrize("name", sorted({e.source for e in LEDGER.values()}))
+def test_every_step_is_shown(name, parsed):
+    page = parsed[f"{name}.html"]
+    shown = Counter(articles_of(e)[0]["attrs"]["id"] for e in page.elements if e["tag"] == "li" and
+                    any(w["attrs"].get("class") == "derivation" for w in e["within"]))  # fmt: skip
+    assert shown == {e.label: len(e.steps) for e in LEDGER.values() if e.source == name and e.steps}
