@@ -78,6 +78,9 @@ def _branches(entry: Entry, record: Record) -> list[Branch]:
             raise Refusal(f"{entry.id} is a display of several equations; export its parts {', '.join(entry.parts)}")
     found = branches(entry, parts)
     symbols = python_names(dict.fromkeys(s for b in found for s in b.domain.symbols))
+    alike = [s.name for s in symbols.values()]
+    if len(set(alike)) < len(alike):
+        raise Refusal(f"{entry.id} has two variables of one name, and cannot be a function of {', '.join(alike)}")
     return [named(b, symbols) for b in found]
 
 

@@ -11,7 +11,7 @@ from sympy import And, Expr, Integral, Not, Piecewise, S, Sum, Symbol, oo, piece
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean, BooleanFunction
 
-from xsec_sym.export.printer import WIDTH, Printer
+from xsec_sym.export.printer import WIDTH, Printer, lines
 from xsec_sym.export.search import Search, one_sided
 from xsec_sym.proof.domain import Domain, Interval
 from xsec_sym.record.entry import Entry
@@ -154,6 +154,8 @@ def _identifier(name: str) -> str:
 
 def formula(branch: Branch) -> list[str]:
     """The lines that compute one branch, in the form that rounds best."""
+    # what cannot be printed is refused before anything is computed
+    lines(branch.form)
     form, domain, meaning = one_sided(branch.form, branch.domain)
     best = Search(form, domain).best()
     printer = Printer()

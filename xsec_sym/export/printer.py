@@ -48,6 +48,8 @@ class Printer(NumPyPrinter):
     def _print(self, expr: Any, **kwargs: Any) -> str:
         if isinstance(expr, Expr) and not expr.free_symbols and expr.is_extended_real:
             return self.constant(expr)
+        if self.known_functions.get(type(expr).__name__, "").startswith("math."):
+            raise Unprintable(f"NumPy has no {type(expr).__name__}")
         return super()._print(expr, **kwargs)
 
     def _print_not_supported(self, expr: Expr) -> str:
@@ -69,7 +71,10 @@ class Printer(NumPyPrinter):
         scale = e / pi
         if scale.is_Rational and abs(scale.p) & (abs(scale.p) - 1) == 0 and scale.q & (scale.q - 1) == 0:
             return {1: "np.pi", -1: "-np.pi"}.get(scale) or f"{float(scale)!r} * np.pi"
-        return repr(float(e.evalf(40)))
+        number = e.evalf(40)
+        if not number.is_real:
+            raise Unprintable(f"{e} is no real number")
+        return repr(float(number))
 
     def _print_Add(self, expr: Add, order: str | None = None) -> str:
         fixed = [t for t in expr.args if not t.free_symbols]
