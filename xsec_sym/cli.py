@@ -2,64 +2,18 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NoReturn, TextIO
+from typing import Any, TextIO
 
 import click
 
-INTERRUPTED = 130
+from xsec_sym.terminal import Count, Program, complain, drawn, one_line, output, progress, saying
+
 # Work is shared out to processes, whose small matrices threads would only slow down; to be set before NumPy is loaded.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-
-
-class _Program(click.Group):
-    """Tells every mistake in one line on standard error, and leaves quietly on Ctrl-C."""
-
-    def main(self, *args: Any, standalone_mode: bool = True, **extra: Any) -> Any:
-        run: Any = super().main
-        if not standalone_mode:
-            return run(*args, standalone_mode=False, **extra)
-        code: Any
-        try:
-            code = run(*args, standalone_mode=False, **extra)
-        except click.ClickException as mistake:
-            click.echo(f"xsec: {_one_line(mistake.format_message())}", err=True)
-            code = 2
-        except (click.Abort, KeyboardInterrupt):
-            code = INTERRUPTED
-        sys.exit(code if isinstance(code, int) else 0)
-
-
-class _Count(click.IntRange):
-    name = "N"
-
-
-def _one_line(text: str) -> str:
-    return " ".join(text.split())
-
-
-def complain(said: object) -> NoReturn:
-    raise click.ClickException(str(said))
-
-
-@contextlib.contextmanager
-def _output(path: str | None) -> Iterator[TextIO | None]:
-    """A file that appears only when the block ends well; its folder is tried before any work is done."""
-    from xsec_sym.record.files import writing
-
-    if path is None:
-        yield None
-        return
-    with contextlib.ExitStack() as stack:
-        try:
-            out = stack.enter_context(writing(path))
-        except (OSError, ValueError) as error:
-            complain(f"cannot write {path}: {getattr(error, 'strerror', None) or error}")
-        yield out
 
 
 def _ledger(derivations: str | None) -> Any:
@@ -74,7 +28,7 @@ def _ledger(derivations: str | None) -> Any:
     return found
 
 
-@click.group(cls=_Program, invoke_without_command=True, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(cls=Program, invoke_without_command=True, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="xsec_sym", message="xsec %(version)s")
 @click.pass_context
 def main(context: click.Context) -> None:
@@ -89,9 +43,9 @@ OWN = click.option("--derivations", metavar="PATH", help="Add a folder of deriva
 @main.command()
 @click.argument("ids", nargs=-1, metavar="[ID]...")
 @click.option("--source", "sources", multiple=True, metavar="KEY", help="Only this source; may be given again.")
-@click.option("--digits", type=_Count(10, 1000), default=30, show_default=True, help="Digits to agree on.")
-@click.option("--seed", type=_Count(0), default=0, show_default=True, help="Seed of the points tested.")
-@click.option("--jobs", type=_Count(1, 1024), help="Processes to use.  [default: one a core]")
+@click.option("--digits", type=Count(10, 1000), default=30, show_default=True, help="Digits to agree on.")
+@click.option("--seed", type=Count(0), default=0, show_default=True, help="Seed of the points tested.")
+@click.option("--jobs", type=Count(1, 1024), help="Processes to use.  [default: one a core]")
 @click.option("--cluster", metavar="ADDRESS", help="Hand the work to a dask.distributed scheduler.")
 @click.option("--fresh", is_flag=True, help="Derive everything again instead of replaying recorded proofs.")
 @click.option("--record", is_flag=True, help="Write the new verdicts as the recorded ones.")
@@ -115,7 +69,7 @@ def verify(
 
     Exit code 0 when every verdict is settled and is the recorded one, 1 when any differs or is not settled.
     """
-    with _output(target) as out:
+    with output(target) as out:
         from xsec_sym.record import show
         from xsec_sym.record.run import Settings, differences, to_record, verify_all
 
@@ -126,7 +80,7 @@ def verify(
         chosen = _chosen(ids, sources, claims, ledger)
         settings = Settings(digits, seed, fresh, jobs or os.cpu_count() or 1)
         execute = _remote(cluster, settings) if cluster else None
-        with _progress(len(chosen)) as tick:
+        with progress(len(chosen)) as tick:
             results = verify_all(claims, chosen, ledger, settings, execute=execute, tick=tick)
         entries = [r.entry for r in results]
         restricted = set(sources) if sources else set() if ids else {e.source for e in ledger.values()}
@@ -181,20 +135,6 @@ def _remote(address: str, settings: Any) -> Any:
         complain(error)
 
 
-@contextlib.contextmanager
-def _progress(total: int) -> Iterator[Callable[[str], None]]:
-    if not sys.stderr.isatty():
-        yield lambda name: None
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-
-    columns = BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn("{task.description}")
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("", total=total)
-        yield lambda name: bar.update(task, advance=1, description=name)
-
-
 def _record(results: Any, kept: Any, ledger: Any, claims: dict[str, Any], gone: list[str], own: set[str]) -> None:
     """Claims of the user's own are recorded beside them, the project's in the package."""
     from xsec_sym.record.store import Ledger
@@ -232,7 +172,7 @@ def _print_verdicts(entries: list[Any]) -> None:
             click.echo(line)
     for entry in entries:
         if not entry.settled and entry.note:
-            click.echo(f"{entry.id}: {_one_line(entry.note)}")
+            click.echo(f"{entry.id}: {one_line(entry.note)}")
 
 
 @main.command()
@@ -255,7 +195,7 @@ def show(name: str, derivations: str | None) -> None:
 @click.argument("lhs")
 @click.argument("rhs")
 @click.option("--where", default="", help='The domain, such as "u in (-1, 1), n in {0, 1, 2}, u*n > 0".')
-@click.option("--digits", type=_Count(1, 1000), default=30, show_default=True, help="Digits to agree on.")
+@click.option("--digits", type=Count(1, 1000), default=30, show_default=True, help="Digits to agree on.")
 @click.option("--seconds", type=click.FloatRange(0.1, 86400), default=60.0, show_default=True, help="Time limit.")
 @click.pass_context
 def check(context: click.Context, lhs: str, rhs: str, where: str, digits: int, seconds: float) -> None:
@@ -281,8 +221,8 @@ def check(context: click.Context, lhs: str, rhs: str, where: str, digits: int, s
 @click.option("-o", "target", metavar="FILE", help="An .svg, .png or .json file.  [default: a table on the terminal]")
 @click.option("--stability", is_flag=True, help="The map of lost digits over the domain instead.")
 @click.option("--measure", is_flag=True, help="Measure anew on this machine instead of drawing what is stored.")
-@click.option("--seed", type=_Count(0), default=1, show_default=True, help="Seed of the points that are measured.")
-@click.option("--jobs", type=_Count(1, 1024), default=1, show_default=True, help="Processes for the references.")
+@click.option("--seed", type=Count(0), default=1, show_default=True, help="Seed of the points that are measured.")
+@click.option("--jobs", type=Count(1, 1024), default=1, show_default=True, help="Processes for the references.")
 @click.option("--cluster", metavar="ADDRESS", help="Have the references computed by a dask.distributed scheduler.")
 def chart(
     name: str, target: str | None, stability: bool, measure: bool, seed: int, jobs: int, cluster: str | None
@@ -299,7 +239,7 @@ def chart(
         complain("--stability draws a picture: give -o a file that ends in .svg or .png")
     try:
         files.known(name)
-        with _drawn(target) as path:
+        with drawn(target) as path:
             data = _measured(name, seed, jobs, cluster) if measure else files.stored(name)
             if path is None:
                 click.echo("\n".join(files.table(data)))
@@ -313,28 +253,8 @@ def _measured(name: str, seed: int, jobs: int, cluster: str | None) -> dict[str,
     from xsec_sym.record.cluster import spread
     from xsec_sym.study import files
 
-    with spread(cluster), _progress(files.variants(name)) as tick:
+    with spread(cluster), progress(files.variants(name)) as tick:
         return files.measured(name, seed, jobs, tick)
-
-
-@contextlib.contextmanager
-def _drawn(target: str | None) -> Iterator[str | None]:
-    """The path of a file beside the target, which takes its place when the block ends well."""
-    import tempfile
-
-    if target is None:
-        yield None
-        return
-    folder = Path(target).resolve().parent
-    try:
-        if Path(target).is_dir():
-            raise IsADirectoryError(0, "it is a folder")
-        with tempfile.TemporaryDirectory(prefix=".xsec-", dir=folder) as room:
-            path = Path(room) / Path(target).name
-            yield str(path)
-            os.replace(path, target)
-    except OSError as error:
-        complain(f"cannot write {target}: {error.strerror or error}")
 
 
 @main.command()
@@ -352,7 +272,7 @@ def export(names: tuple[str, ...], target: str | None, dtype: str) -> None:
         for line in _exportable(exporter):
             click.echo(line)
         return
-    with _output(None if target == "-" else target) as out:
+    with output(None if target == "-" else target) as out:
         try:
             text = exporter.module(list(names), dtype)
         except (exporter.Refusal, KeyError) as error:
@@ -381,7 +301,7 @@ def plan(scene: str, target: str | None, report: str | None, measure: bool) -> N
     from xsec_sym.planner import plan as planned
     from xsec_sym.record.files import layout
 
-    with _output(target) as out, _output(report) as told, _saying() as tick:
+    with output(target) as out, output(report) as told, saying() as tick:
         try:
             found = planned(scene, measure=measure, tick=tick)
         except (BadScene, Unmet) as error:
@@ -403,7 +323,7 @@ def report(target: str) -> None:
     """
     from xsec_sym.report import NotAReport, build
 
-    with _saying() as tick:
+    with saying() as tick:
         try:
             index = build(target, _ledger(None), tick)
         except NotAReport as error:
@@ -411,18 +331,6 @@ def report(target: str) -> None:
         except OSError as error:
             complain(f"cannot write {target}: {error.strerror or error}")
     click.echo(str(index))
-
-
-@contextlib.contextmanager
-def _saying() -> Iterator[Callable[[str], None]]:
-    """What is being done, in one line of a terminal that is written over."""
-    if not sys.stderr.isatty():
-        yield lambda said: None
-        return
-    from rich.console import Console
-
-    with Console(stderr=True).status("") as status:
-        yield lambda said: status.update(said)
 
 
 if __name__ == "__main__":
