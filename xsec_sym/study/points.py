@@ -14,7 +14,7 @@ import numpy as np
 from joblib import Parallel, delayed
 from mpmath import mp, mpf
 
-from xsec_sym.study.method import Argument, Columns, Function, Quantity
+from xsec_sym.study.method import Argument, Columns, Function, Quantity, registered
 
 BULK = "bulk"
 TINY = {"float64": 1e-300, "float32": 1e-37}
@@ -81,7 +81,11 @@ def right(quantity: Quantity, label: str, columns: Columns, dtype: str = "float6
         return Points(label, columns, high, np.zeros_like(high))
     rows = list(zip(*running, *fixed, strict=True))
     parts = [rows[k : k + PARTS] for k in range(0, len(rows), PARTS)]
-    done = Parallel(n_jobs=jobs)(delayed(_values)(quantity.reference, part) for part in parts)
+    if jobs == 1:
+        done = [_values(quantity.reference, part) for part in parts]
+    else:
+        # by name, for a reference may hold numbers that do not travel between processes
+        done = Parallel(n_jobs=jobs)(delayed(_registered_values)(quantity.name, part) for part in parts)
     pairs = np.array([pair for part in done for pair in part]).reshape(-1, 2)
     return Points(label, columns, pairs[:, 0], pairs[:, 1])
 
@@ -89,6 +93,10 @@ def right(quantity: Quantity, label: str, columns: Columns, dtype: str = "float6
 def _values(reference: Function, rows: Sequence[Sequence[float]]) -> list[tuple[float, float]]:
     with mp.workdps(DIGITS):
         return [_pair(reference(*map(float, row))) for row in rows]
+
+
+def _registered_values(name: str, rows: Sequence[Sequence[float]]) -> list[tuple[float, float]]:
+    return _values(registered(name).quantity.reference, rows)
 
 
 def _pair(value: object) -> tuple[float, float]:

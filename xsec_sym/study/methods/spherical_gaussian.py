@@ -89,6 +89,14 @@ def harmonics(n: int) -> Callable[..., np.ndarray]:
     return sigma
 
 
+def three_harmonics(u: np.ndarray, m: np.ndarray) -> np.ndarray:
+    """`deon2016:44`: the expansion up to l = 2 in closed form."""
+    square = m * m
+    coth = 1 / np.tanh(2 / square)
+    curved = 3 * square * square - 6 * square * coth + 4
+    return 0.25 + (2 * coth - square) * u / 4 + 5 / 128 * (3 * u * u - 1) * curved
+
+
 # --- exact, in series -------------------------------------------------------------------------------------
 
 
@@ -255,6 +263,7 @@ METHODS = (
     Method("spherical harmonics", "deon2016:38", harmonics, kind="series", curve=along(n=(2, 4, 8, 16, 32))),
     Method("Beckmann", "deon2016:22", lambda: kernels.sigma_beckmann, model="sigma_beckmann", kind="other model"),
     Method("Beckmann, odd part", "deon2016:40", lambda: beckmann_with_odd_part, kind="approximation"),
+    Method("harmonics to l = 2", "deon2016:44", lambda: three_harmonics, kind="approximation"),
     Method("error function", "deon2016:41", lambda: fitted_at_the_equator, kind="approximation"),
     *(Method(name, source, irradiance(fit), kind="fit in use") for name, (fit, source) in RIVALS.items()),
     *quadratures(kernels.ndf_spherical_gaussian, surfaces.ndf_spherical_gaussian.__wrapped__),
