@@ -15,8 +15,8 @@ def draw(folder: str) -> None:
     Path(folder).mkdir(parents=True, exist_ok=True)
     for name in HOMES:
         data = files.stored(name)
-        files.write(data, Path(folder) / f"{name}.svg", ".svg")
-        files.write(data, Path(folder) / f"{name}_stability.svg", ".svg", stability=True)
+        files.write(data, Path(folder) / f"{name}.png", ".png")
+        files.write(data, Path(folder) / f"{name}_stability.png", ".png", stability=True)
         print(name)
 
 

@@ -123,7 +123,7 @@ def save(made: Figure, path: str | Path) -> None:
     """Without a date, so that the same data give the same file."""
     kind = Path(path).suffix.lstrip(".") or "svg"
     with rc_context(STYLE):
-        made.savefig(path, format=kind, dpi=150, metadata={"Date": None} if kind == "svg" else {})
+        made.savefig(path, format=kind, dpi=100, metadata={"Date": None} if kind == "svg" else {})
 
 
 def _looks(data: Mapping[str, Any]) -> dict[str, tuple[str, str, bool]]:

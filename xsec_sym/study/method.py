@@ -126,6 +126,7 @@ class Method:
     source: an entry of the record, such as "deon2016:40", or a citation, or what it is.
     curve: the values of its parameters along which it becomes slower and more accurate; each is a mapping.
     serial: it takes one number at a time. most: it is so slow that no more points than these are tried.
+    least: the smallest array that it is timed at, where it prepares for many values only.
     needs: a package without which it is left out. model: what it computes, if it stands for a quantity that is another.
     """
 
@@ -137,6 +138,7 @@ class Method:
     folds: bool = False
     serial: bool = False
     most: int | None = None
+    least: int = 0
     single: bool = False
     needs: str = ""
     model: str = ""

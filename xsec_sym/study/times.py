@@ -72,7 +72,7 @@ def times(
     rng = np.random.default_rng(seed)
     found: list[Time] = []
     cost = 0.0
-    for n in (10, *sizes) if method.serial else sizes:
+    for n in (10, *sizes) if method.serial else [n for n in sizes if n >= method.least]:
         if (method.serial and n > 10**3) or cost * n > 3e9:
             break
         running, others = quantity.given(quantity.columns(rng, n), dtype)

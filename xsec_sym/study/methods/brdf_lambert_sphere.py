@@ -139,7 +139,7 @@ def isotropic(mu_i: Any, mu_o: Any, phi: Any, c: Any) -> Any:
 
 
 METHODS = (
-    Method("kernel", "deon2021:18", kernel, kind="solver", folds=True, ours=True),
+    Method("kernel", "deon2021:18", kernel, kind="solver", folds=True, ours=True, least=10**5),
     Method("HalfSpace", "exact single scattering, orders up to n", solved, kind="solver",
            curve=along(n=(2, 4, 8, 16, 32)), folds=True),
     Method("HalfSpace, series throughout", "deon2021:4", series, kind="solver",
