@@ -150,7 +150,7 @@ def plan(scene: str | Path | Mapping[str, Any] | Scene, measure: bool = False, t
     >>> scene = {"material": [{"name": "matt", "quantity": "sigma_spherical_gaussian", "alpha": 2, "tolerance": 1e-3}]}
     >>> chosen = plan(scene).materials[0]
     >>> chosen.function, chosen.method, chosen.found_error < chosen.expected_error < 1e-3
-    ('matt', 'polynomial of degree 2', True)
+    ('matt', 'harmonics to l = 2', True)
     """
     if not isinstance(scene, Scene):
         scene = Scene.of(scene) if isinstance(scene, Mapping) else Scene.load(scene)

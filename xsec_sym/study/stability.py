@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib import rc_context
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
@@ -105,13 +106,15 @@ def _map(frame: Any, digits: np.ndarray) -> Any:
     capped = np.ma.masked_invalid(np.where(np.isinf(digits), 16.0, digits)).T
     mesh = frame.pcolormesh(capped, cmap="cividis", vmin=0, vmax=16, rasterized=True)
     failing = np.where(np.isnan(digits), False, digits >= -np.log10(np.finfo(float).eps / 2) + np.log10(NOTHING_RIGHT))
+    outline = []
     for i, j in np.argwhere(failing):
-        for di, dj, line in ((-1, 0, ((i, i), (j, j + 1))), (1, 0, ((i + 1, i + 1), (j, j + 1))),
-                             (0, -1, ((i, i + 1), (j, j))), (0, 1, ((i, i + 1), (j + 1, j + 1)))):  # fmt: skip
+        for di, dj, line in ((-1, 0, ((i, j), (i, j + 1))), (1, 0, ((i + 1, j), (i + 1, j + 1))),
+                             (0, -1, ((i, j), (i + 1, j))), (0, 1, ((i, j + 1), (i + 1, j + 1)))):  # fmt: skip
             k, l = i + di, j + dj
             inside = 0 <= k < failing.shape[0] and 0 <= l < failing.shape[1]
             if not (inside and failing[k, l]):
-                frame.plot(*line, color="#D7191C", lw=0.8)
+                outline.append(line)
+    frame.add_collection(LineCollection(outline, colors="#D7191C", linewidths=0.8))
     if failing.any():
         i, j = np.argwhere(failing).mean(axis=0) + 0.5
         said = "no number" if np.isinf(digits[failing]).any() else "no digit right"
