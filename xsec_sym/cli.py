@@ -217,7 +217,7 @@ def check(context: click.Context, lhs: str, rhs: str, where: str, digits: int, s
 
 
 @main.command()
-@click.argument("name", metavar="NAME")
+@click.argument("name", metavar="[NAME]", required=False)
 @click.option("-o", "target", metavar="FILE", help="An .svg, .png or .json file.  [default: a table on the terminal]")
 @click.option("--stability", is_flag=True, help="The map of lost digits over the domain instead.")
 @click.option("--measure", is_flag=True, help="Measure anew on this machine instead of drawing what is stored.")
@@ -225,13 +225,20 @@ def check(context: click.Context, lhs: str, rhs: str, where: str, digits: int, s
 @click.option("--jobs", type=Count(1, 1024), default=1, show_default=True, help="Processes for the references.")
 @click.option("--cluster", metavar="ADDRESS", help="Have the references computed by a dask.distributed scheduler.")
 def chart(
-    name: str, target: str | None, stability: bool, measure: bool, seed: int, jobs: int, cluster: str | None
+    name: str | None, target: str | None, stability: bool, measure: bool, seed: int, jobs: int, cluster: str | None
 ) -> None:
-    """Speed against accuracy for every method of a quantity, such as sigma_ggx."""
+    """Speed against accuracy for every method of a quantity, such as sigma_ggx; without a NAME, list them."""
     from xsec_sym.record.cluster import NoCluster
     from xsec_sym.study import files
     from xsec_sym.study.method import UnknownQuantity
 
+    if name is None:
+        from xsec_sym.study.method import HOMES
+
+        if target is not None or stability or measure:
+            complain("name the quantity; without a name there is only the list of them")
+        click.echo("\n".join(HOMES))
+        return
     kind = Path(target).suffix if target is not None else ""
     if target is not None and kind not in files.KINDS:
         complain(f"cannot draw {target}: the name must end in {', '.join(files.KINDS)}")

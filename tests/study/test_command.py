@@ -6,6 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 from xsec_sym.cli import main
+from xsec_sym.study.method import HOMES
 
 NAME = "sigma_spherical_gaussian"
 
@@ -18,6 +19,12 @@ def test_a_table_on_the_terminal():
     said = run(NAME)
     assert said.exit_code == 0
     assert "Tokuyoshi 2024" in said.output and "max rel" in said.output
+
+
+def test_without_a_name_the_quantities_are_listed():
+    said = run()
+    assert said.exit_code == 0
+    assert said.output.split() == list(HOMES)
 
 
 @pytest.mark.parametrize(
@@ -46,6 +53,7 @@ def test_data(tmp_path):
         ((NAME, "-o", "a.pdf"), "must end in .svg, .png, .json"),
         ((NAME, "-o", "no/such/folder/a.svg"), "cannot write no/such/folder/a.svg"),
         ((NAME, "--stability"), "give -o a file"),
+        (("-o", "a.svg"), "name the quantity"),
         ((NAME, "--stability", "-o", "a.json"), "give -o a file"),
     ],
 )
