@@ -168,6 +168,9 @@ def test_energy_at_c_1():
     mu_i = np.array([0.0, 1e-6, 1e-4, 1e-3, 0.004, 0.01, 0.02, 0.03, 0.05, 0.1, 0.2, 0.4, 0.63, 0.85, 1.0])
     f = brdf_lambert_sphere_fit(mu_i[:, None, None], mu_o[:, None], phi, 1.0).mean(-1)
     assert abs(2 * np.pi * f @ (weight * mu_o) - 1).max() < 2.5e-5
+    fast = brdf_lambert_sphere_fast(mu_i[3:, None, None], mu_o[:, None], phi, 1.0).mean(-1)
+    returned = 2 * np.pi * fast @ (weight * mu_o)
+    assert 0.95 < returned.min() < 0.955 and 1.02 < returned.max() < 1.035
 
 
 @pytest.mark.parametrize("brdf", [brdf_lambert_sphere_fit, brdf_lambert_sphere_fast])

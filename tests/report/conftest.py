@@ -1,7 +1,6 @@
 """One report for all tests of this folder, built once a worker."""
 
 import contextlib
-import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,7 +13,6 @@ from xsec_sym.study import method
 @dataclass(frozen=True)
 class Site:
     folder: Path
-    seconds: float
 
     def text(self, name):
         return (self.folder / name).read_text(encoding="utf-8")
@@ -36,7 +34,6 @@ def few_charts():
 @pytest.fixture(scope="session")
 def site(tmp_path_factory):
     folder = tmp_path_factory.mktemp("site") / "report"
-    start = time.process_time()
     with few_charts():
         build(folder)
-    return Site(folder, time.process_time() - start)
+    return Site(folder)

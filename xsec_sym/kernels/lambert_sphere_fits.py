@@ -192,9 +192,9 @@ def brdf_lambert_sphere_fast(
 
     Per steradian (1/sr): `brdf_lambert_sphere`, to 0.04 where both cosines are above 0.025, and to 0.005 root mean
     square for directions and c at random there: largest errors found; those of `deon2021:48` are 0.1 and 0.013.
-    For c from 0.5 to 0.9 `deon2021:48` may be the nearer one. For c = 1, 95 % to 103 % of a beam returns. Where both
-    cosines are smaller the truth grows as a logarithm, which it does not follow: it is off by up to 0.7 down to
-    cosines of 1e-5. The two directions may change places to the last bit; never negative. Beside single
+    For middle values of c `deon2021:48` may be nearer. For c = 1 and cosines from 0.001, 95 % to 103 % of a beam
+    returns. Where both cosines are smaller the truth grows as a logarithm, which it does not follow: it is off by up to
+    0.7 down to cosines of 1e-5. The two directions may change places to the last bit; never negative. Beside single
     scattering it takes one square root and one division, and no power or arc cosine.
 
     mu_i, mu_o: cosines in [0, 1]. phi: azimuth in radians between the two directions, both pointing outward, so that
