@@ -57,7 +57,7 @@ def test_accuracy(kernel, slow, reference, least):
 @named
 def test_cells_are_those_of_the_tables(kernel, slow, reference, least):
     """On both sides of every edge."""
-    _, _, layer, rim, edge = regions.PRECISE[:5]
+    _, _, layer, rim, edge = regions.PRECISE.grid.parts
     step = 1 + np.linspace(-1e-12, 1e-12, 5)
     kappas = [*np.sqrt(regions.tables.EVEN_Y[1:]), *regions.tables.ROUND_Y, *(2 / np.array(layer.y)), 30.0]
     cosines = [*regions.tables.ROUND_X[1:-1], regions.tables.LIT, 0.3, *np.sqrt(1 - (1 / np.array(layer.x) - 0.2) ** 2)]

@@ -12,7 +12,7 @@ from mpmath import mp, mpf
 from tests.kernels import gaussian, lobes
 from xsec_sym.kernels import (
     _pairs,
-    _spherical_gaussian_core,
+    _spherical_gaussian_regions,
     log_sigma_spherical_gaussian,
     ndf_spherical_gaussian,
     scaled_sigma_spherical_gaussian,
@@ -79,16 +79,37 @@ def test_accuracy_is_named():
         sigma_spherical_gaussian(0.5, 0.5, accuracy="best")
 
 
-def test_float32():
+@named
+def test_float32(kernel, reference, least):
     """8 ulp are promised."""
     rng = np.random.default_rng(3)
-    u, alpha = (part.astype(np.float32) for part in gaussian.points(rng, 40))
-    values = sigma_spherical_gaussian(u, alpha)
+    u, alpha = (part.astype(np.float32) for part in gaussian.points(rng, 60))
+    values = kernel(u, alpha)
     assert values.dtype == np.float32
     for value, *point in zip(values, u, alpha, strict=True):
-        exact = gaussian.sigma(*point)
-        if exact > 1e-36:
-            assert abs(mpf(float(value)) - exact) < 1.5 * np.spacing(np.float32(float(exact))), point
+        exact = reference(*point)
+        if least == 0.0 or exact > 1e-36:
+            assert abs(mpf(float(value)) - exact) < 8 * np.spacing(np.float32(abs(float(exact)))), point
+
+
+@named
+def test_float32_beyond_what_its_squares_can_hold(kernel, reference, least):
+    u = np.array([-1e-30, -1.0, -1e-18, 0.0, 1e-20, 0.5], np.float32)
+    for alpha in (1e-30, 1e-18, 1e18, 3e38):
+        values = kernel(u, np.full_like(u, alpha))
+        exact = kernel(u.astype(float), float(np.float32(alpha)))
+        with np.errstate(under="ignore", over="ignore"):
+            assert np.allclose(values, exact.astype(np.float32), rtol=1e-6, atol=1e-45), alpha
+
+
+def test_tiny_roughness_far_from_its_layer():
+    """Where it is no longer that of a flat surface; beside w, all else of the logarithm is below 1e-200."""
+    u, alpha = np.array([[-1.0], [-0.5]]), np.array([1e-120, 1e-130, 1e-145, 1e-150])
+    with mp.workdps(30):
+        w = [[2 * (1 - mp.sqrt(1 - mpf(v) ** 2)) / mpf(rough) ** 2 for rough in alpha] for v in u.ravel()]
+    assert np.allclose(log_sigma_spherical_gaussian(u, alpha), -np.array(w, float), rtol=1e-14, atol=0)
+    assert np.allclose(scaled_sigma_spherical_gaussian(-1, alpha), alpha * alpha / 2, rtol=1e-14, atol=0)
+    assert (scaled_sigma_spherical_gaussian(-0.5, alpha) == 0).all()
 
 
 def test_the_odd_part_is_right_to_two_places():
@@ -121,8 +142,8 @@ def test_sigma_rises():
 def switches():
     """Paths of 2e-4 across every border of a region or a cell: u, alpha."""
     step = 1 + np.linspace(-1e-4, 1e-4, 16)
-    kappas = [*np.sqrt(tables.EVEN_Y[1:]), *tables.ROUND_Y, *(2 / np.array(tables.LAYER_Y[1:])), 1e8]
-    kappas.append(_spherical_gaussian_core.FAINT)
+    kappas = [*np.sqrt(tables.EVEN_Y[1:]), *tables.ROUND_Y, *(2 / np.array(tables.LAYER_Y[1:]))]
+    kappas.append(_spherical_gaussian_regions.PRECISE.faint)
     for kappa in kappas:
         for u in (-0.95, -0.3, 1e-4, 0.7):
             if kappa < 1e4 or abs(u) < 1e-3:
@@ -134,7 +155,7 @@ def switches():
         for kappa in (40.0, 300.0):
             yield -np.sqrt(1 - (ks / kappa * step) ** 2), np.full(16, np.sqrt(2 / kappa))
     for alpha in (1e-4, 0.01, 0.1):
-        yield np.sqrt(_spherical_gaussian_core.LIT_ENDS) * alpha * step, np.full(16, alpha)
+        yield np.sqrt(_spherical_gaussian_regions.PRECISE.lit_ends) * alpha * step, np.full(16, alpha)
 
 
 @pytest.mark.parametrize(("u", "alpha"), list(switches()))

@@ -10,7 +10,7 @@ from mpmath import mp, mpf
 from tests.kernels import gaussian
 from xsec_sym.export import spherical_gaussian as generator
 from xsec_sym.kernels import _spherical_gaussian_tables as tables
-from xsec_sym.kernels._patches import Patches
+from xsec_sym.kernels._patches import Joined, Patches
 from xsec_sym.proof.ball_compile import precision
 
 # One cell of each region, and the one of the rim whose kappa reaches infinity.
@@ -68,7 +68,9 @@ def test_a_patch_is_its_polynomial_for_one_point_few_and_many():
     assert number.tolist() == [0, 1, 2, 3, 0]
     assert [patches.cell_of_one(*point) for point in zip(x.tolist(), y.tolist(), strict=True)] == number.tolist()
     exact = [1 - 1 + 0.75 + 0.0, 5.0, 0.5 + 2.0, 1.0, 1 - 2 + 3 + 4.0]
-    assert patches(x, y, number.astype(np.intp)).tolist() == exact
+    joined = Joined([patches, Patches([0.0, 1.0], [0.0, 1.0], [[[7.0, 0.0, 0.0, 0.0], [0.0], [0.0]]])])
+    assert joined(x, y, number.astype(np.intp)).tolist() == exact
+    assert joined(x, y, np.full(5, 4)).tolist() == [7.0] * 5
     for i, value in enumerate(exact):
         one = slice(i, i + 1)
         assert patches(x[one], y[one], int(number[i])).item() == value

@@ -124,7 +124,7 @@ class Kit(NamedTuple):
 
 
 def compiled_kit(source: regions.Kit) -> Kit:
-    patches: list[Patches] = list(source[:5])
+    patches: list[Patches] = source.grid.parts
     lists = [table for part in patches for table in part.lists]
     most = max(map(len, lists))
     place = np.concatenate([np.column_stack([*part.middles, *part.scales]) for part in patches])

@@ -33,8 +33,9 @@ SIGMA, LOG, SCALED = range(3)
 EVEN, ROUND, LAYER, RIM, EDGE = 0, 3, 19, 29, 31
 ODD, FAINT, BARE, BINS = 34, 35, 36, 37
 
-SMALLEST, DARK_ENDS, FAINT_ENDS = core.SMALLEST, core.DARK_ENDS, core.FAINT
-LIT_ENDS, LIT_ENDS_EVER, MODEST = core.LIT_ENDS, core.LIT_ENDS_EVER, core.MODEST
+SMALLEST, FAINT_ENDS = regions.PRECISE.smallest, regions.PRECISE.faint
+SHRUNK = core.SHRUNK
+DARK_ENDS, LIT_ENDS = regions.PRECISE.dark_ends, regions.PRECISE.lit_ends
 NEARLY_FACING = core.NEARLY_FACING
 PALE_ENDS, STEEP_STARTS, RIM_ENDS = regions.PALE, regions.STEEP, regions.RIM
 LIT, SHIFT, HALF = tables.LIT, tables.SHIFT, tables.HALF
@@ -78,9 +79,8 @@ def _exponent(v, s, alpha):
 def _round_off_along(v, alpha, rough):
     """What the exponent kappa v lacks."""
     a, a_low = two_prod(alpha, alpha)
-    kappa, kappa_low = quotient(2.0, 0.0, a, a_low)
-    x, low = two_prod(kappa, v)
-    return (x - rough) + (low + kappa_low * v)
+    x, low = quotient(2.0 * v, 0.0, a, a_low)
+    return (x - rough) + low
 
 
 @jit_inside
@@ -241,8 +241,7 @@ def _cells(form, u, alpha, number):
         steep = layer if v <= LIT else high
         bin_ = round_ if kappa <= STEEP_STARTS else steep
         bin_ = even if kappa < PALE_ENDS else bin_
-        lit_ends = LIT_ENDS if kappa < MODEST else LIT_ENDS_EVER
-        bin_ = BARE if kappa * (v * v) > (lit_ends if u[i] > 0.0 else dark_ends) * (1.0 + s) else bin_
+        bin_ = BARE if kappa * (v * v) > (LIT_ENDS if u[i] > 0.0 else dark_ends) * (1.0 + s) else bin_
         bin_ = FAINT if kappa < FAINT_ENDS else bin_
         number[i] = bin_ if (v <= 1.0) & (alpha[i] >= SMALLEST) else ODD
 
@@ -277,9 +276,9 @@ def _odd(kit, form, u, alpha, n, work, value):
         value[i] = np.nan
         if abs(u[i]) <= 1.0 and alpha[i] >= 0.0:
             mantissa, power = math.frexp(alpha[i])
-            up = -400 - power
-            away[0] = -min(math.ldexp(abs(u[i]), up), 1.0)
-            rough[0] = math.ldexp(max(mantissa, 0.5), -400)
+            up, v = SHRUNK - power, abs(u[i])
+            away[0] = -min(math.ldexp(v, up), 1.0)
+            rough[0] = math.ldexp(max(mantissa, 0.5), SHRUNK)
             lit = u[i] > 0.0 or alpha[i] == 0.0
             inner = SIGMA if lit else form
             _cells(inner, away, rough, number)
@@ -287,6 +286,11 @@ def _odd(kit, form, u, alpha, n, work, value):
             if lit:
                 sigma = max(u[i], 0.0) + (math.ldexp(value[i], -up) if alpha[i] > 0.0 else 0.0)
                 value[i] = math.log(sigma) if form == LOG else sigma
+            elif away[0] == -1.0:
+                if form == LOG:
+                    value[i] = -2.0 * (v / alpha[i]) ** 2 / (1.0 + _sine(v))
+                else:
+                    value[i] = 0.5 * alpha[i] * alpha[i] if form == SCALED and v == 1.0 else 0.0
             else:
                 value[i] = value[i] - math.log(2.0) * up if form == LOG else math.ldexp(value[i], -up)
 

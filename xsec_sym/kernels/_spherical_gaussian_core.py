@@ -1,27 +1,25 @@
 """From the regions to the cross-section of the spherical Gaussian, its logarithm and its scaled form."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from xsec_sym.kernels import _spherical_gaussian_regions as regions
 from xsec_sym.kernels import _spherical_gaussian_tables as tables
-from xsec_sym.kernels._spherical_gaussian_regions import Dark, Kit
+from xsec_sym.kernels._spherical_gaussian_regions import Kit, Points, Region, Steep
+from xsec_sym.kernels._spherical_gaussian_sorting import Joint, Left
+from xsec_sym.kernels._support import scalar
 
-# Below it sigma(u, alpha) = alpha f(u/alpha) to all digits, since corrections are of the order of alpha^2.
-SMALLEST = 1e-140
-# exp(-w) sqrt(kappa) is nothing beside c v from the first on for kappa < MODEST, from the second on for all.
-LIT_ENDS, LIT_ENDS_EVER, MODEST = 42.0, 400.0, 1e8
-# exp(-w) is 0 from here on.
-DARK_ENDS = 746.0
-# Up to here on kappa a Taylor series of three terms has all digits; up to there EVEN has a single cell.
-FAINT, DIM = 0.006, tables.EVEN_Y[1] ** 0.5
-# Points that are sorted by cell together; those looked at at once before that, and those of one cell.
-WHOLE, PART, CHUNK = 2**19, 16384, 8192
-# From so many on they are sorted, while fewer gather the coefficients of their cells.
-MANY = 8192
+# Up to here on kappa EVEN has a single cell.
+DIM = tables.EVEN_Y[1] ** 0.5
+# Points that are sorted by cell together; and the memory of an array of those looked at at once before that.
+WHOLE, PART = 2**20, 2**19
+# The power of 2 that roughnesses below the smallest are brought to.
+SHRUNK = -300
+# Up to here another call costs more than sorting.
+FEW = 2048
 # Below it the exponent needs no second part.
 SMALL_EXPONENT = 1.0
 # From this cosine on the logarithm is formed without 1 - (1 - x).
@@ -29,113 +27,131 @@ NEARLY_FACING = 0.5
 
 
 class Form(NamedTuple):
-    """What is made of the parts of sigma: for kappa < PALE, beyond its layer, and within; of sigma, and of its form
-    for u < 0 at arguments larger by a power of 2, where sigma is as alpha f(u/alpha).
+    """What is made of the parts of sigma: of its even and odd one for kappa < PALE; beyond its layer; and within, from
+    the factor of exp(-x). Then of sigma; of its form for u < 0 at arguments larger by a power of 2, where sigma is as
+    alpha f(u/alpha); and for v = -u much larger than alpha.
     """
 
     pale: Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
-    bare: Callable[[Kit, np.ndarray, np.ndarray], np.ndarray]
-    steep: Callable[[Kit, np.ndarray, np.ndarray, Dark], np.ndarray]
+    bare: Callable[[np.ndarray, np.ndarray], np.ndarray]
+    steep: Callable[[np.ndarray, Steep, bool], np.ndarray]
     of: Callable[[np.ndarray], np.ndarray]
     shrunk: Callable[[np.ndarray, np.ndarray], np.ndarray]
-    dark_ends: float
+    far: Callable[[np.ndarray, np.ndarray], np.ndarray]
+    underflows: bool
 
 
 def evaluate(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
-    """`form` at vectors of cosines and of roughnesses; NaN outside their domain."""
+    """`form` at vectors of cosines and of roughnesses of the kit's type; NaN outside their domain."""
     if u.size == 1:
         return _alone(kit, form, u, alpha)
-    value = np.full_like(u, np.nan)
-    left = []
-    for start in range(0, u.size, PART):
-        part = slice(start, start + PART)
-        rest = _simple(kit, form, u[part], alpha[part], value[part])
-        if rest:
-            left.append((rest[0] + start, rest[1]))
-    if left:
-        places, cells = left[0] if len(left) == 1 else (np.concatenate(part) for part in zip(*left, strict=True))
-        waiting = []
-        for region, chosen, cell in grouped(kit, places, cells):
-            at, rough = u[chosen], alpha[chosen]
-            found = region(kit, np.abs(at), rough, cell)
-            if isinstance(found, Dark) and not found.along and places.size < MANY:
-                waiting.append((chosen, found))
-            else:
-                value[chosen] = _made(kit, form, at, rough, found)
-        if waiting:
-            # Few points cost by the call.
-            chosen = np.concatenate([chosen for chosen, _ in waiting])
-            factor, x, s = (np.concatenate(part) for part in zip(*(found[:3] for _, found in waiting), strict=True))
-            value[chosen] = form.steep(kit, u[chosen], alpha[chosen], Dark(factor, x, s))
+    value = np.empty_like(u)
+    left, size = Left(kit.grid, u, alpha), PART // u.itemsize
+    for start in range(0, u.size, size):
+        part = slice(start, start + size)
+        # Small enough for the cache, unlike `value`.
+        near = np.full_like(u[part], np.nan)
+        left.add(start, *_simple(kit, form, u[part], alpha[part], near))
+        value[part] = near
+    if left.few:
+        for joint in left.joint():
+            _few(kit, form, joint, value)
+    else:
+        for group in left.groups():
+            value[group.places] = _made(kit, form, group.region, group.points, group.found)
     return value
 
 
-def _made(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray, found: Dark | np.ndarray) -> np.ndarray:
-    if isinstance(found, Dark):
-        return form.steep(kit, u, alpha, found)
-    return form.pale(u, 2.0 / (alpha * alpha), found, 0.5 * u * regions.pale_cosine(kit, alpha))
+def _few(kit: Kit, form: Form, joint: Joint, value: np.ndarray) -> None:
+    """The same operations, with as few calls as there may be."""
+    pale, *steep = joint.inside
+    p = joint.points.at(pale)
+    if p.u.size:
+        odd = 0.5 * p.u * regions.pale_cosine(kit, p.alpha)
+        value[joint.places[pale]] = form.pale(p.u, p.kappa, joint.found[pale], odd)
+    rest = slice(pale.stop, steep[-1].stop)
+    p = joint.points.at(rest)
+    if p.u.size:
+        x, along = regions.least_exponent(p), np.zeros(p.u.size, bool)
+        first = slice(0, steep[0].stop - rest.start)
+        x[first], along[first] = p.kappa[first] * p.v[first], True
+        at, factor = Steep(p, x, regions.mean_cosine(kit, p.kappa), along), np.empty_like(x)
+        for region, inside in zip(regions.REGIONS[1:], steep, strict=True):
+            if inside.start < inside.stop:
+                own = slice(inside.start - rest.start, inside.stop - rest.start)
+                assert region.factor is not None
+                factor[own] = region.factor(kit, joint.found[inside], at.at(own))
+        value[joint.places[rest]] = form.steep(factor, at, kit.pairs)
+
+
+def _made(kit: Kit, form: Form, region: Region, p: Points, found: np.ndarray) -> np.ndarray:
+    if region.factor:
+        at = region.steep(kit, p)
+        return form.steep(region.factor(kit, found, at), at, kit.pairs)
+    return form.pale(p.u, p.kappa, found, 0.5 * p.u * regions.pale_cosine(kit, p.alpha))
 
 
 def _alone(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
     """A single point, with as few calls as there may be; the same operations as in company."""
-    v, rough = abs(u.item()), alpha.item()
     value = np.full_like(u, np.nan)
-    if not (v <= 1.0 and rough >= SMALLEST):
-        _simple(kit, form, u, alpha, value)
-        return value
-    kappa = 2.0 / (rough * rough) if rough < 1e150 else 0.0
-    if kappa < DIM:
-        _simple(kit, form, u, alpha, value)
-        return value
-    s = math.sqrt((1.0 - v) * (1.0 + v))
-    ends = (LIT_ENDS if kappa < MODEST else LIT_ENDS_EVER) if u.item() > 0.0 else form.dark_ends
-    if kappa * (v * v) / (1.0 + s) > ends:
-        return form.bare(kit, u, 2.0 / (alpha * alpha))
-    region, cell = regions.place(kit, v, s, rough * rough, kappa)
-    return _made(kit, form, u, alpha, region(kit, np.abs(u), alpha, cell))
+    v, rough = abs(scalar(u)), scalar(alpha)
+    if v <= 1.0 and kit.smallest <= rough < 1e18:
+        a = rough * rough
+        s = type(v)(math.sqrt((1.0 - v) * (1.0 + v)))
+        one = Points(scalar(u), rough, v, s, a, 2.0 / a)
+        if one.kappa >= kit.faint:
+            w = one.kappa * (v * v) / (1.0 + s)
+            p = regions.points(u, alpha)
+            if w > (kit.lit_ends if one.u > 0.0 else _dark_ends(kit, form)):
+                return form.bare(u, p.kappa)
+            i = regions.region_of_one(one)
+            region = regions.REGIONS[i]
+            cell = kit.grid.firsts[i] + kit.grid.parts[i].cell_of_one(*region.variables(one))
+            return _made(kit, form, region, p, kit.grid(*region.variables(p), cell))
+    _simple(kit, form, u, alpha, value)
+    return value
 
 
-def _simple(
-    kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray, value: np.ndarray
-) -> tuple[np.ndarray, np.ndarray] | None:
-    """Fill in what is done at once; the places that are left, and the numbers of their cells."""
-    v = np.abs(u)
-    known = (v <= 1.0) & (alpha >= 0.0)
-    tiny = alpha < SMALLEST
+def _dark_ends(kit: Kit, form: Form) -> float:
+    return kit.dark_ends if form.underflows else np.inf
+
+
+def _simple(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray, value: np.ndarray) -> tuple[np.ndarray, Points]:
+    """Fill in what is done at once; the places that are left, among all points."""
+    p = regions.points(u, alpha, kit.dtype)
+    known = (p.v <= 1.0) & (alpha >= 0.0)
+    tiny = alpha < kit.smallest
     tiny &= known
     chosen = tiny.nonzero()[0]
     if chosen.size:
         value[chosen] = _tiny(kit, form, u[chosen], alpha[chosen])
         known ^= tiny
-    a = alpha * alpha
-    kappa, s = 2.0 / a, regions.sine(v)
-    w = kappa * (v * v) / (1.0 + s)
-    gone = w > LIT_ENDS
-    gone &= u > 0.0
-    gone &= (kappa < MODEST) | (w > LIT_ENDS_EVER)
-    gone |= w > form.dark_ends
-    gone &= known
-    chosen = gone.nonzero()[0]
+    w = p.kappa * (p.v * p.v) / (1.0 + p.s)
+    bare = w > kit.lit_ends
+    bare &= u > 0.0
+    bare |= w > _dark_ends(kit, form)
+    bare &= known
+    chosen = bare.nonzero()[0]
     if chosen.size:
-        value[chosen] = form.bare(kit, u[chosen], kappa[chosen])
-    dim = kappa < DIM
-    dim &= known
-    faint = kappa < FAINT
+        value[chosen] = form.bare(u[chosen], p.kappa[chosen])
+    faint = p.kappa < kit.faint
     faint &= known
     chosen = faint.nonzero()[0]
     if chosen.size:
-        at, k = u[chosen], kappa[chosen]
+        at, k = u[chosen], p.kappa[chosen]
         value[chosen] = form.pale(at, k, *_faint(at, k))
-    chosen = (dim ^ faint).nonzero()[0]
-    if chosen.size:
-        at, k = u[chosen], kappa[chosen]
-        value[chosen] = form.pale(at, k, kit.even(at * at, k * k, 0), 0.5 * at * regions.mean_cosine(kit, k, pale=True))
-    known ^= dim
-    known ^= gone
-    chosen = known.nonzero()[0]
-    if not chosen.size:
-        return None
-    return chosen, regions.cells(kit, v[chosen], s[chosen], a[chosen], kappa[chosen])
+    known ^= bare
+    known ^= faint
+    if u.size > FEW:
+        # Not worth sorting.
+        dim = p.kappa < DIM
+        dim &= known
+        chosen = dim.nonzero()[0]
+        at, k = u[chosen], p.kappa[chosen]
+        even = kit.grid(at * at, k * k, 0)
+        value[chosen] = form.pale(at, k, even, 0.5 * at * regions.pale_cosine(kit, alpha[chosen]))
+        known ^= dim
+    return known.nonzero()[0], p
 
 
 def _faint(u: np.ndarray, kappa: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -147,69 +163,49 @@ def _faint(u: np.ndarray, kappa: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _tiny(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
     """Of u and alpha scaled up by a power of 2, on the side turned away; the odd part is u."""
+    if kit.dtype is np.float32:
+        return evaluate(regions.FAST, form, u.astype(np.float64), alpha.astype(np.float64))
     mantissa, power = np.frexp(alpha)
-    up = -400 - power
-    away, rough = -np.minimum(np.ldexp(np.abs(u), up), 1.0), np.ldexp(np.maximum(mantissa, 0.5), -400)
+    up, v = SHRUNK - power, np.abs(u)
+    away, rough = -np.minimum(np.ldexp(v, up), 1.0), np.ldexp(np.maximum(mantissa, 0.5), SHRUNK)
     sigma = np.ldexp(evaluate(kit, SIGMA, away, rough), -up) * (alpha > 0.0) + np.maximum(u, 0.0)
-    return np.where((u > 0.0) | (alpha == 0.0), form.of(sigma), form.shrunk(evaluate(kit, form, away, rough), up))
+    dark = np.where(away > -1.0, form.shrunk(evaluate(kit, form, away, rough), up), form.far(v, alpha))
+    return np.where((u > 0.0) | (alpha == 0.0), form.of(sigma), dark)
 
 
-def grouped(
-    kit: Kit, places: np.ndarray, cells: np.ndarray
-) -> Iterator[tuple[regions.Region, np.ndarray, int | np.ndarray]]:
-    """The places region by region, with their cells; and cell by cell where they are many."""
-    order = np.argsort(cells, kind="stable")
-    places = places[order]
-    counts = [len(patches) for patches in (kit.even, kit.round, kit.layer, kit.rim, kit.edge)]
-    ends = [0, *np.cumsum(np.bincount(cells, minlength=sum(counts))).tolist()]
-    first = 0
-    for region, count in zip(regions.REGIONS, counts, strict=True):
-        if places.size < MANY:
-            inside = slice(ends[first], ends[first + count])
-            if inside.start < inside.stop:
-                yield region, places[inside], cells[order[inside]].astype(np.intp) - first
-        else:
-            for cell in range(count):
-                end = ends[first + cell + 1]
-                for start in range(ends[first + cell], end, CHUNK):
-                    yield region, places[start : min(start + CHUNK, end)], cell
-        first += count
-
-
-def _sigma_steep(kit: Kit, u: np.ndarray, alpha: np.ndarray, dark: Dark) -> np.ndarray:
-    fall = np.exp(-dark.x)
-    if kit.pairs:
-        deep = ((u < 0.0) & (dark.x > SMALL_EXPONENT)).nonzero()[0]
+def _sigma_steep(factor: np.ndarray, at: Steep, pairs: bool) -> np.ndarray:
+    fall = np.exp(-at.x)
+    if pairs:
+        deep = ((at.points.u < 0.0) & (at.x > SMALL_EXPONENT)).nonzero()[0]
         if deep.size:
-            fall[deep] -= fall[deep] * regions.round_off(-u[deep], alpha[deep], dark.x[deep], dark.along)
-    return fall * dark.factor + np.maximum(u, 0.0) * regions.mean_cosine(kit, 2.0 / (alpha * alpha))
+            fall[deep] -= fall[deep] * regions.round_off(at.at(deep))
+    return fall * factor + np.maximum(at.points.u, 0.0) * at.mean
 
 
-def _sigma_bare(kit: Kit, u: np.ndarray, kappa: np.ndarray) -> np.ndarray:
-    # coth kappa is 1 where sigma is bare: kappa > w > LIT_ENDS.
+def _bare(u: np.ndarray, kappa: np.ndarray) -> np.ndarray:
+    # coth kappa is 1 where sigma is bare: kappa > w, which is large.
     return np.maximum(u, 0.0) * (1.0 - 1.0 / kappa)
 
 
 SIGMA = Form(
     pale=lambda u, kappa, even, odd: even + odd,
-    bare=_sigma_bare,
+    bare=_bare,
     steep=_sigma_steep,
     of=lambda sigma: sigma,
     shrunk=lambda dark, up: np.ldexp(dark, -up),
-    dark_ends=DARK_ENDS,
+    far=lambda v, alpha: np.zeros_like(v),
+    underflows=True,
 )
 
 
-def _scaled_steep(kit: Kit, u: np.ndarray, alpha: np.ndarray, dark: Dark) -> np.ndarray:
-    value = dark.factor
-    if dark.along:
+def _scaled_steep(factor: np.ndarray, at: Steep, pairs: bool) -> np.ndarray:
+    value, p = factor, at.points
+    if np.any(at.along):
         # kappa v - w = 2 kappa v s/(1 + v + s)
-        v = np.abs(u)
-        value = value * np.exp(-2.0 * dark.x * dark.s / (1.0 + v + dark.s))
-    lit = (u > 0.0).nonzero()[0]
-    at = u[lit]
-    value[lit] *= np.exp(-regions.least_exponent(at, dark.s[lit], alpha[lit]))
-    value[lit] += at * regions.mean_cosine(kit, 2.0 / (alpha[lit] * alpha[lit]))
+        value = value * np.exp(-2.0 * np.where(at.along, at.x, 0.0) * p.s / (1.0 + p.v + p.s))
+    lit = (p.u > 0.0).nonzero()[0]
+    value[lit] *= np.exp(-regions.least_exponent(p.at(lit)))
+    value[lit] += p.u[lit] * at.mean[lit]
     return value
 
 
@@ -220,26 +216,28 @@ def _scaled_pale(u: np.ndarray, kappa: np.ndarray, even: np.ndarray, odd: np.nda
 
 SCALED = Form(
     pale=_scaled_pale,
-    bare=_sigma_bare,
+    bare=_bare,
     steep=_scaled_steep,
     of=SIGMA.of,
     shrunk=SIGMA.shrunk,
-    dark_ends=np.inf,
+    # Of the order of alpha^3, unless s is 0.
+    far=lambda v, alpha: np.where(v == 1.0, 0.5 * alpha * alpha, 0.0),
+    underflows=False,
 )
 
 
-def _log_bare(kit: Kit, u: np.ndarray, kappa: np.ndarray) -> np.ndarray:
+def _log_bare(u: np.ndarray, kappa: np.ndarray) -> np.ndarray:
     return np.log(u) + np.log1p(-1.0 / kappa)
 
 
-def _log_steep(kit: Kit, u: np.ndarray, alpha: np.ndarray, dark: Dark) -> np.ndarray:
-    value = np.log(dark.factor) - dark.x
-    lit = (u > 0.0).nonzero()[0]
-    at, kappa = u[lit], 2.0 / (alpha[lit] * alpha[lit])
+def _log_steep(factor: np.ndarray, at: Steep, pairs: bool) -> np.ndarray:
+    value = np.log(factor) - at.x
+    lit = (at.points.u > 0.0).nonzero()[0]
+    u, kappa = at.points.u[lit], at.points.kappa[lit]
     behind = np.exp(value[lit])
     less = 2.0 / np.expm1(2.0 * kappa) - 1.0 / kappa
-    facing = np.log(at) + np.log1p(less + behind / at)
-    value[lit] = np.where(at > NEARLY_FACING, facing, np.log((1.0 + less) * at + behind))
+    facing = np.log(u) + np.log1p(less + behind / u)
+    value[lit] = np.where(u > NEARLY_FACING, facing, np.log((1.0 + less) * u + behind))
     return value
 
 
@@ -248,6 +246,7 @@ LOG = Form(
     bare=_log_bare,
     steep=_log_steep,
     of=np.log,
-    shrunk=lambda dark, up: dark - np.log(2.0) * up,
-    dark_ends=np.inf,
+    shrunk=lambda dark, up: dark - math.log(2.0) * up,
+    far=lambda v, alpha: -2.0 * (v / alpha) ** 2 / (1.0 + regions.sine(v)),
+    underflows=False,
 )

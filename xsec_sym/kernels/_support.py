@@ -47,9 +47,10 @@ def elementwise(
     core: Callable[..., np.ndarray],
     orders: Collection[str] = (),
     block: int = BLOCK,
+    dtype: type[np.floating] = np.float64,
     **arguments: np.typing.ArrayLike,
 ) -> np.ndarray | np.floating:
-    """Broadcast the named arguments, run `core` on blocks of float64 vectors, and return its values in their shape.
+    """Broadcast the named arguments, run `core` on blocks of vectors of `dtype`, and return its values in their shape.
 
     `core` gets one vector an argument, all of one length, and must neither change them nor keep them; it answers
     with NaN where an argument is outside its domain. Floating-point warnings are off while it runs.
@@ -57,7 +58,7 @@ def elementwise(
     >>> elementwise(lambda x, y: x + y, x=1, y=[2, 3.5])
     array([3. , 4.5])
     """
-    return elementwise_tuple(lambda *vectors: (core(*vectors),), 1, orders, block, **arguments)[0]
+    return elementwise_tuple(lambda *vectors: (core(*vectors),), 1, orders, block, dtype, **arguments)[0]
 
 
 def elementwise_tuple(
@@ -65,6 +66,7 @@ def elementwise_tuple(
     outputs: int,
     orders: Collection[str] = (),
     block: int = BLOCK,
+    dtype: type[np.floating] = np.float64,
     **arguments: np.typing.ArrayLike,
 ) -> tuple[np.ndarray | np.floating, ...]:
     """As `elementwise`, for a `core` that returns so many vectors at once.
@@ -73,17 +75,18 @@ def elementwise_tuple(
     (array([3. , 4.5]), array([-1. , -2.5]))
     """
     arrays = [real_array(name, value) for name, value in arguments.items()]
-    dtype = result_dtype(arguments, orders)
+    single = result_dtype(arguments, orders)
     shape = common_shape(dict(zip(arguments, arrays, strict=True)))
-    results = [np.empty(shape, dtype) for _ in range(outputs)]
+    results = [np.empty(shape, single) for _ in range(outputs)]
     access: Any = [("readonly",)] * len(arrays) + [("writeonly", "no_broadcast")] * outputs
     blocks = np.nditer(
         (*arrays, *results),
         flags=("external_loop", "buffered", "zerosize_ok"),
         op_flags=access,
-        op_dtypes=(np.float64,) * (len(arrays) + outputs),
+        op_dtypes=(dtype,) * (len(arrays) + outputs),
         casting="same_kind",
-        buffersize=block,
+        # A buffer is as large as it is asked for, whatever it will hold.
+        buffersize=min(block, max(math.prod(shape), 1)),
     )
     with np.errstate(all="ignore"), blocks:
         np.setbufsize(BUFFER)
@@ -106,12 +109,17 @@ def common_shape(arrays: dict[str, np.ndarray]) -> tuple[int, ...]:
         raise ValueError(f"these shapes do not broadcast: {shapes}") from error
 
 
+def scalar(x: np.ndarray) -> float:
+    """The only value of `x`; Python's arithmetic is that of double precision, and faster."""
+    return x.item() if x.dtype == np.float64 else x[0]
+
+
 def horner(coefficients: Collection[float], x: np.ndarray) -> np.ndarray:
     """The polynomial with these coefficients, highest power first."""
     first, *rest = coefficients
     if x.size == 1:
         # The same products and sums, without a call for each.
-        one, sum_ = x.item(), first
+        one, sum_ = scalar(x), first
         for coefficient in rest:
             sum_ = sum_ * one + coefficient
         return np.full_like(x, sum_)
