@@ -1,5 +1,6 @@
 """The kernels that Numba compiles, against those of NumPy and against the references."""
 
+import importlib
 import os
 import subprocess
 import sys
@@ -168,3 +169,24 @@ print(sum(loops.fill.stats.cache_hits.values()))
 """
     compiled.sigma_spherical_gaussian(0.5, 0.5)
     assert fresh(code, PYTHONPATH=str(Path(xsec_sym.__file__).parents[1])) == "1"
+
+
+def test_a_cache_of_other_sources_is_renewed(tmp_path, monkeypatch):
+    """Numba looks at the file of the function alone, while edges of cells and the like are compiled in."""
+    monkeypatch.syspath_prepend(str(tmp_path))
+    (tmp_path / "told.py").write_text(
+        "from edges import STAMP\nfrom xsec_sym.kernels._compiled_polynomials import kept\n"
+        "@kept\ndef told(value):\n    value[0] = STAMP\n    return STAMP\n"
+    )
+    value = np.zeros(1)
+    for number, cached in ((1, 1), (22, 1), (22, 22)):
+        (tmp_path / "edges.py").write_text(f"STAMP = {number}\n")
+        for name in ("edges", "told"):
+            sys.modules.pop(name, None)
+        importlib.invalidate_caches()
+        told = importlib.import_module("told").told
+        assert told(value) == cached
+        polynomials.renew(told, number, value)
+        assert told(value) == number == value[0]
+    for name in ("edges", "told"):
+        sys.modules.pop(name)

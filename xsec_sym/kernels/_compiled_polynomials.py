@@ -4,6 +4,9 @@ Functions of vectors take room for their results, and how many values there are.
 """
 
 import math
+import sys
+import zlib
+from pathlib import Path
 from typing import NamedTuple
 
 import numba
@@ -24,15 +27,23 @@ jit = numba.njit(error_model="numpy", nogil=True)
 jit_inside = numba.njit(error_model="numpy", forceinline=True)
 
 
-def kept(function):
-    """Compiled once and for all, or once a process where no cache can be written.
+def stamp(*modules):
+    """A number that changes with the sources of these modules and of this one."""
+    return sum(zlib.crc32(Path(module.__file__).read_bytes()) for module in (*modules, sys.modules[__name__]))
 
-    The cache notices a change of the file of `function` alone: touch it after one of what it calls.
-    """
+
+def kept(function):
+    """Compiled once and for all, or once a process where no cache can be written."""
     try:
         return numba.njit(error_model="numpy", nogil=True, cache=True)(function)
     except RuntimeError:
         return jit(function)
+
+
+def renew(function, expected, *arguments):
+    """Compile `function`, which returns a stamp, anew if what the cache holds is of other sources."""
+    if function(*arguments) != expected:
+        function.recompile()
 
 
 @jit

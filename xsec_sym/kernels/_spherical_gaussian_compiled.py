@@ -23,6 +23,7 @@ from xsec_sym.kernels._compiled_polynomials import (
     patch,
     quotient,
     room,
+    stamp,
     two_prod,
 )
 
@@ -30,6 +31,8 @@ from xsec_sym.kernels._compiled_polynomials import (
 BLOCK = 2**15
 TINY = float(np.finfo(float).tiny)
 SIGMA, LOG, SCALED = range(3)
+# Numba's cache notices changes of this file alone.
+STAMP = stamp(core, regions, tables)
 EVEN, ROUND, LAYER, RIM, EDGE = 0, 3, 19, 29, 31
 ODD, FAINT, BARE, BINS = 34, 35, 36, 37
 
@@ -286,6 +289,8 @@ def _odd(kit, form, u, alpha, n, work, value):
             if lit:
                 sigma = max(u[i], 0.0) + (math.ldexp(value[i], -up) if alpha[i] > 0.0 else 0.0)
                 value[i] = math.log(sigma) if form == LOG else sigma
+                if form == LOG and away[0] == -1.0:
+                    value[i] = math.log(u[i]) + math.log1p(-0.5 * alpha[i] * alpha[i])
             elif away[0] == -1.0:
                 if form == LOG:
                     value[i] = -2.0 * (v / alpha[i]) ** 2 / (1.0 + _sine(v))
@@ -323,7 +328,7 @@ def _sorted(number, least, counts, left, order):
 
 @kept
 def fill(kit, form, u, alpha, value):
-    """`value` at the points u, alpha, in the form that is asked for."""
+    """`value` at the points u, alpha, in the form that is asked for; and the stamp of what it was compiled from."""
     most = min(BLOCK, len(u))
     number, counts = np.empty(most, np.uint8), np.empty(BINS + 1, np.int64)
     left, order = np.empty(most + 1, np.int64), np.empty(most, np.int64)
@@ -350,3 +355,4 @@ def fill(kit, form, u, alpha, value):
                 for i in range(n):
                     result[order[first + i]] = found[i]
                 first += n
+    return STAMP

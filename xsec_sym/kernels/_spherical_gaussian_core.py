@@ -169,8 +169,10 @@ def _tiny(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
     up, v = SHRUNK - power, np.abs(u)
     away, rough = -np.minimum(np.ldexp(v, up), 1.0), np.ldexp(np.maximum(mantissa, 0.5), SHRUNK)
     sigma = np.ldexp(evaluate(kit, SIGMA, away, rough), -up) * (alpha > 0.0) + np.maximum(u, 0.0)
-    dark = np.where(away > -1.0, form.shrunk(evaluate(kit, form, away, rough), up), form.far(v, alpha))
-    return np.where((u > 0.0) | (alpha == 0.0), form.of(sigma), dark)
+    near = away > -1.0
+    dark = np.where(near, form.shrunk(evaluate(kit, form, away, rough), up), form.far(v, alpha))
+    lit = np.where(near, form.of(sigma), form.bare(u, 2.0 / (alpha * alpha)))
+    return np.where((u > 0.0) | (alpha == 0.0), lit, dark)
 
 
 def _sigma_steep(factor: np.ndarray, at: Steep, pairs: bool) -> np.ndarray:

@@ -13,7 +13,7 @@ import numpy as np
 
 try:
     from xsec_sym.kernels import _spherical_gaussian_compiled as loops
-    from xsec_sym.kernels._compiled_polynomials import Kit, compiled_kit
+    from xsec_sym.kernels._compiled_polynomials import Kit, compiled_kit, renew
 except ModuleNotFoundError as error:
     if error.name != "numba":
         raise
@@ -31,10 +31,17 @@ def _kit(fast: bool) -> Kit:
     return compiled_kit(regions.FAST if fast else regions.PRECISE)
 
 
+@cache
+def _renew() -> None:
+    point = np.array([0.5])
+    renew(loops.fill, loops.STAMP, _kit(False), loops.SIGMA, point, point.copy(), point.copy())
+
+
 def _evaluated(form: int, u: np.typing.ArrayLike, alpha: np.typing.ArrayLike, threads: int) -> np.ndarray | np.floating:
     if threads < 1:
         raise ValueError(f"threads must be at least 1, not {threads}")
     kit = _kit(result_dtype({"u": u, "alpha": alpha}) is np.float32)
+    _renew()
 
     def fill(u: np.ndarray, alpha: np.ndarray, value: np.ndarray) -> None:
         # Copies are of a single type, whatever the arguments are, so that there is a single compilation.
