@@ -10,6 +10,8 @@ from xsec_sym.kernels.dirac_ring import BARELY, barely_lit, partly_lit
 
 EPS = np.finfo(float).eps
 ORDER = 20
+# From the edge of a panel to its outermost node, in halves of its width.
+GAP = 1e-12
 DEPTH = 40
 # Past this many panels for one direction the ndf is noise to the quadrature, and the error estimate says so.
 MOST_PANELS = 3000
@@ -31,7 +33,7 @@ def _chebyshev() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     moments = np.where(k % 2, 0.0, 2.0 / (1.0 - np.where(k % 2, 0, k) ** 2))
     # The outermost nodes see a jump anywhere in the panel, but not one at its edge, where breakpoints are put.
     nodes = np.cos(angles[1])
-    nodes[[0, -1]] *= 1.0 - 1e-12
+    nodes[[0, -1]] *= 1.0 - GAP
     return nodes, moments @ coefficients, coefficients[-4:].T
 
 
@@ -179,7 +181,9 @@ class CrossSection:
         # x is known to half an ulp, which a steep D turns into an error of its own.
         slope = np.abs(np.diff(D, axis=1)) / np.maximum(np.abs(np.diff(x, axis=1)), EPS / 4)
         steepest = np.maximum(np.pad(slope, ((0, 0), (1, 0))), np.pad(slope, ((0, 0), (0, 1))))
-        return f @ rule, np.abs(f) @ rule, error, EPS * (steepest * np.abs(x * weight)) @ rule
+        noise = EPS * (steepest * np.abs(x * weight)) @ rule
+        # A jump between an edge and its node is not seen.
+        return f @ rule, np.abs(f) @ rule, error, noise + GAP * (np.abs(f[:, 0]) + np.abs(f[:, -1]))
 
     def _hemisphere(self, sign: float, weigh: Callable, exponent: float) -> tuple[float, float]:
         """The integral of weigh(x) D(x) over the hemisphere x sign > 0, and its error.
