@@ -91,6 +91,13 @@ def test_the_forms_of_table_1_are_the_recorded_ones(row):
         assert simplify(symbolic(cell.strip("`"), entry) - entry.side(side)) == 0
 
 
+@pytest.mark.parametrize("name", PAGES)
+def test_every_id_that_is_named_exists(name):
+    for one in re.findall(rf"`((?:{'|'.join(RECORD.sources)}):[^`]+)`", read(name)):
+        stem, dots, _ = one.partition("…")
+        assert any(known.startswith(stem) for known in RECORD) if dots else one in RECORD, one
+
+
 ACCURACIES = rows(read("docs/findings.md"), "Stated accuracies")
 
 
