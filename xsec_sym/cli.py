@@ -341,7 +341,7 @@ def report(target: str, derivations: str | None) -> None:
     click.echo(str(index))
 
 
-main.add_command(new)
+main.command()(new)
 
 if __name__ == "__main__":
     main()

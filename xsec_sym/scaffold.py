@@ -52,7 +52,6 @@ def module(key: str, section: str) -> str:
     return SECTION.format(key=key, section=section)
 
 
-@click.command()
 @click.argument("folder", metavar="PATH")
 @click.argument("section", default="section", metavar="[SECTION]")
 def new(folder: str, section: str) -> None:

@@ -5,8 +5,12 @@ In a page, ```` ```python NAME ```` is a file, ```` ```python >> NAME ```` is ad
 writes the page anew.
 """
 
+import contextlib
+import importlib
+import io
 import os
 import re
+import runpy
 import shlex
 import subprocess
 import sys
@@ -14,6 +18,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from click.testing import CliRunner
+
+from xsec_sym.proof import REGISTRY
 
 BLOCK = re.compile(r"^```(python|console)( >>)?(?: (\S+))?\n(.*?)^```$", re.M | re.S)
 ROOT = Path(__file__).parents[2]
@@ -56,20 +62,47 @@ def replayed(page, folder, codes):
 
 
 def said(command, folder):
-    """What a command prints, and its exit code. `xsec` runs in this process, which has imported what it needs."""
+    """What a command prints, and its exit code. `xsec` and Python run in this process, which has SymPy at hand."""
     words = shlex.split(command)
     if words[0] == "xsec":
         from xsec_sym import cli
 
         result = CliRunner().invoke(cli.main, words[1:], catch_exceptions=False)
         text, code = result.output, result.exit_code
+    elif words[0] == "python":
+        text, code = interpreted(words[1:], folder), 0
     else:
-        if words[0] == "python":
-            words[0] = sys.executable
-        paths = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
-        done = subprocess.run(words, cwd=folder, capture_output=True, text=True, env=os.environ | {"PYTHONPATH": paths})
+        done = subprocess.run(words, cwd=folder, capture_output=True, text=True)
         text, code = done.stdout + done.stderr, done.returncode
     return Said("".join(line.rstrip() + "\n" for line in text.splitlines()), code)
+
+
+def interpreted(words, folder):
+    """What `python -m NAME`, `python FILE` or `python -c CODE` prints; nothing of it is left behind."""
+    modules, path, claims = set(sys.modules), list(sys.path), dict(REGISTRY)
+    REGISTRY.clear()
+    sys.path.insert(0, str(folder))
+    importlib.invalidate_caches()
+    out = io.StringIO()
+    try:
+        with contextlib.redirect_stdout(out):
+            if words[0] == "-m":
+                runpy.run_module(words[1], run_name="__main__")
+            elif words[0] == "-c":
+                exec(words[1], {"__name__": "__main__"})
+            else:
+                runpy.run_path(words[0], run_name="__main__")
+    finally:
+        # libraries that were imported on the way may stay; a package without a file is the folder's own
+        for name in set(sys.modules) - modules:
+            found = sys.modules[name]
+            place = getattr(found, "__file__", None) or (str(folder) if hasattr(found, "__path__") else "")
+            if place.startswith(str(folder)):
+                del sys.modules[name]
+        sys.path[:] = path
+        REGISTRY.clear()
+        REGISTRY.update(claims)
+    return out.getvalue()
 
 
 def timeless(page):
