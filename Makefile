@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
-.PHONY: verify verify-fresh test lint bench chart walk report notebooks generate clean
+.PHONY: verify verify-fresh test test-newest lint bench chart walk report notebooks generate clean
 
 $(READY): pyproject.toml constraints.txt
 	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed") if sys.version_info < (3, 11) else None'
@@ -24,6 +24,21 @@ lint: $(READY)
 
 test: lint
 	$(BIN)/python -m pytest
+
+# The suite with the newest releases, whatever the pins say, to see what the next ones will break: a set-up of its own,
+# where warnings are shown but are no errors. `make test-newest PRE=--pre` takes pre-releases, `PAST=mpmath==1.4.1` what
+# the newest SymPy does not allow, and `TESTS=tests/kernels` a part of the suite.
+NEWEST := .venv-newest/bin/python
+NAMES := import re, tomllib; p = tomllib.load(open("pyproject.toml", "rb"))["project"]; \
+    print(*sorted({re.match(r"[\w.-]+", d)[0] for d in p["dependencies"] + p["optional-dependencies"]["test"]}))
+test-newest:
+	$(PYTHON) -m venv --clear .venv-newest
+	$(NEWEST) -m pip install --quiet --disable-pip-version-check --upgrade $(PRE) \
+	    setuptools $$($(PYTHON) -c '$(NAMES)')
+	$(if $(PAST),$(NEWEST) -m pip install --quiet --disable-pip-version-check --no-deps $(PAST))
+	$(NEWEST) -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	$(NEWEST) -m pip list --disable-pip-version-check | grep -iE '^(sympy|mpmath|numpy|scipy|gmpy2|python-flint|numba) '
+	$(NEWEST) -m pytest -W default $(TESTS)
 
 bench: $(READY)
 	$(BIN)/python -m tests.bench
@@ -55,4 +70,4 @@ generate: $(READY)
 	$(BIN)/python -m xsec_sym.report.code
 
 clean:
-	rm -rf .venv build *.egg-info
+	rm -rf .venv .venv-newest build *.egg-info

@@ -249,6 +249,18 @@ def test_export(exporter, tmp_path):
     assert os.listdir(tmp_path) == ["k.py"]
 
 
+def test_export_and_report_take_what_is_one_s_own(mine, engine, exporter, tmp_path, monkeypatch):
+    run("verify", "--source", "mine", "--derivations", mine, "--record")
+    given = []
+    monkeypatch.setattr(
+        sys.modules["xsec_sym.export"], "module", lambda names, dtype, record: given.append(record) or ""
+    )
+    monkeypatch.setattr("xsec_sym.report.build", lambda target, record, tick: given.append(record) or target)
+    assert run("export", "mine:1", "--derivations", mine).exit_code == 0
+    assert run("report", "--derivations", mine, "-o", tmp_path / "pages").exit_code == 0
+    assert [sorted(record) for record in given] == [IDS, IDS]
+
+
 # --- processes ---------------------------------------------------------------------------------------
 
 

@@ -10,6 +10,7 @@ from typing import Any, TextIO
 
 import click
 
+from xsec_sym.scaffold import new
 from xsec_sym.terminal import Count, Program, complain, drawn, one_line, output, progress, saying
 
 # Work is shared out to processes, whose small matrices threads would only slow down; to be set before NumPy is loaded.
@@ -268,7 +269,8 @@ def _measured(name: str, seed: int, jobs: int, cluster: str | None) -> dict[str,
 @click.argument("names", nargs=-1, metavar="[NAME]...")
 @click.option("-o", "target", metavar="FILE", help="The module to write.  [default: standard output]")
 @click.option("--dtype", type=click.Choice(["float32", "float64"]), default="float64", show_default=True)
-def export(names: tuple[str, ...], target: str | None, dtype: str) -> None:
+@OWN
+def export(names: tuple[str, ...], target: str | None, dtype: str, derivations: str | None) -> None:
     """Write verified expressions as one module that imports NumPy; without a NAME, list what there is."""
     from importlib import import_module
 
@@ -276,12 +278,13 @@ def export(names: tuple[str, ...], target: str | None, dtype: str) -> None:
     if not names:
         if target is not None:
             complain("name what to export; without a name there is only the list")
-        for line in _exportable(exporter):
+        for line in _exportable(exporter, derivations):
             click.echo(line)
         return
     with output(None if target == "-" else target) as out:
         try:
-            text = exporter.module(list(names), dtype)
+            own = {"record": _ledger(derivations)} if derivations else {}
+            text = exporter.module(list(names), dtype, **own)
         except (exporter.Refusal, KeyError) as error:
             complain(error if isinstance(error, exporter.Refusal) else str(error))
         if out is not None:
@@ -290,11 +293,8 @@ def export(names: tuple[str, ...], target: str | None, dtype: str) -> None:
         click.echo(text, nl=False)
 
 
-def _exportable(exporter: Any) -> list[str]:
-    if hasattr(exporter, "names"):
-        return [str(name) for name in exporter.names()]
-    holds = ("proved", "confirmed", "misprint")
-    return [f"{e.id}  {e.title}" for e in _ledger(None).values() if e.kind == "equation" and e.verdict in holds]
+def _exportable(exporter: Any, derivations: str | None) -> list[str]:
+    return [str(name) for name in (exporter.names(_ledger(derivations)) if derivations else exporter.names())]
 
 
 @main.command()
@@ -323,7 +323,8 @@ def plan(scene: str, target: str | None, report: str | None, measure: bool) -> N
 
 @main.command()
 @click.option("-o", "target", metavar="DIR", default="report", show_default=True, help="The folder to write.")
-def report(target: str) -> None:
+@OWN
+def report(target: str, derivations: str | None) -> None:
     """Write the whole record as a static page that is read offline.
 
     An earlier report is replaced; a folder that holds anything else is not touched.
@@ -332,13 +333,15 @@ def report(target: str) -> None:
 
     with saying() as tick:
         try:
-            index = build(target, _ledger(None), tick)
+            index = build(target, _ledger(derivations), tick)
         except NotAReport as error:
             complain(error)
         except OSError as error:
             complain(f"cannot write {target}: {error.strerror or error}")
     click.echo(str(index))
 
+
+main.command()(new)
 
 if __name__ == "__main__":
     main()

@@ -14,7 +14,7 @@ OPTIONS = [
     *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
 ]
 PAGES = ("index.html", "deon2016.html", "dupuy2016.html", "deon2021.html", "tokuyoshi_harada.html", "kenha2018.html",
-         "xsec.html", "table1.html", "charts.html", "errata-deon2016.html")  # fmt: skip
+         "xsec.html", "table1.html", "charts.html", "errata-deon2016.html", "reference.html")  # fmt: skip
 
 
 class Browser:
@@ -98,7 +98,7 @@ def test_mathematics_is_set_by_the_browser(browser):
     assert boxes[:2] == [True, True] and boxes[2] > 30 and boxes[3]
 
 
-@pytest.mark.parametrize("page", [p for p in PAGES if p not in ("index.html", "charts.html")])
+@pytest.mark.parametrize("page", [p for p in PAGES if p not in ("index.html", "charts.html", "reference.html")])
 def test_every_formula_has_a_size(browser, page):
     browser.open(page)
     flat = browser.run("""
@@ -249,3 +249,13 @@ def test_text_stands_out_from_its_ground(browser, page, scheme):
             .map((e) => [light(getComputedStyle(e).color), light(ground(e))].sort((a, b) => b - a))
             .map(([a, b]) => (a + 0.05) / (b + 0.05)));""")
     assert least >= 4.5
+
+
+def test_search_in_the_reference(browser):
+    browser.open("reference.html")
+    everything = browser.count("article.name")
+    browser.find("#search").send_keys("chandrasekhar")
+    assert 0 < browser.count("article.name") < everything
+    assert "h_isotropic" in browser.run("return document.querySelector('article.name:not([hidden]) h3').textContent")
+    browser.find("#search").send_keys(" nothing-of-the-kind")
+    assert browser.count("article.name") == 0 and browser.count("#nothing") == 1

@@ -50,9 +50,9 @@ def available(record: Record | None = None) -> dict[str, str]:
     return found
 
 
-def names() -> list[str]:
+def names(record: Record | None = None) -> list[str]:
     """The lines of `available`, as a terminal shows them."""
-    found = available()
+    found = available(record)
     wide = max(map(len, found), default=0)
     return [f"{name:{wide}}  {said}" for name, said in found.items()]
 

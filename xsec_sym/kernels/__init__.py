@@ -1,4 +1,9 @@
-"""Importable NumPy kernels: the quantities of the papers as functions of arrays, without SymPy or mpmath."""
+"""Importable NumPy kernels: the quantities of the papers as functions of arrays, without SymPy or mpmath.
+
+>>> from xsec_sym import kernels
+>>> kernels.sigma_ggx([-1, 0, 1], 0.3)
+array([0.  , 0.15, 1.  ])
+"""
 
 from xsec_sym.kernels.beckmann import lambda_beckmann, ndf_beckmann, sigma_beckmann
 from xsec_sym.kernels.dirac_ring import sigma_dirac_ring

@@ -107,7 +107,14 @@ def _nodes(left: np.ndarray, right: np.ndarray) -> tuple[np.ndarray, np.ndarray]
 
 
 class CrossSection:
-    """The cross-section of one NDF as a function of u; made by `cross_section`."""
+    """The cross-section of one NDF as a function of u; made by `cross_section`.
+
+    u: cosine in [-1, 1], of any shape; anything else, NaN included, gives NaN.
+
+    >>> sigma = cross_section(lambda x: x**2)
+    >>> sigma([-1, 0, 1]).round(12)
+    array([1.57079633, 0.78539816, 1.57079633])
+    """
 
     def __init__(self, ndf: Callable, rtol: float, breakpoints: Sequence[float]):
         if not callable(ndf):

@@ -30,7 +30,14 @@ ROUGHNESSES = (1e-100, 1e100)
 
 
 class FixedSphericalGaussian:
-    """What `specialize_spherical_gaussian` returns: sigma as a function of the cosine `u` alone."""
+    """What `specialize_spherical_gaussian` returns: sigma as a function of the cosine `u` alone.
+
+    u: cosine in [-1, 1], of any shape; anything else, NaN included, gives NaN.
+
+    >>> sigma = specialize_spherical_gaussian(0.5)
+    >>> sigma([-0.5, 0, 1])
+    array([0.01361484, 0.13414251, 0.87504203])
+    """
 
     def __init__(self, alpha: float, tol: float | None) -> None:
         self.alpha, self.tol = alpha, tol

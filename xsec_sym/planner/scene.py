@@ -27,7 +27,13 @@ TAKEN = frozenset({"np", "math", "special", "annotations", *dir(builtins), *keyw
 
 
 class BadScene(ValueError):
-    """A scene that cannot be planned for: the message names the file and the key."""
+    """A scene that cannot be planned for: the message names the file and the key.
+
+    >>> Scene.of({"material": [{"name": "frost", "quantity": "sigma_gxx", "tolerance": 1e-3}]})
+    Traceback (most recent call last):
+    ...
+    xsec_sym.planner.scene.BadScene: scene: ...sigma_gxx...
+    """
 
 
 @dataclass(frozen=True)
@@ -36,6 +42,11 @@ class Material:
 
     constants: the arguments that are numbers; ranges: those that stay arguments, (low, high). Between them they are all
     arguments of the quantity. error: "relative" or "absolute". evaluations: how often it is computed a frame.
+
+    >>> glass = {"name": "foggy glass", "quantity": "sigma_ggx", "alpha": 0.1, "tolerance": 1e-3}
+    >>> scene = Scene.of({"material": [glass]})
+    >>> scene.materials[0].function, scene.materials[0].arguments, dict(scene.materials[0].constants)
+    ('foggy_glass', ['u'], {'alpha': 0.1})
     """
 
     name: str
@@ -102,7 +113,13 @@ class Material:
 
 @dataclass(frozen=True)
 class Scene:
-    """A name and materials. `Scene.load` reads a TOML file, `Scene.of` takes the same as a dictionary."""
+    """A name and materials. `Scene.load` reads a TOML file, `Scene.of` takes the same as a dictionary.
+
+    >>> material = {"name": "rust", "quantity": "sigma_beckmann", "alpha": [0.3, 0.5]}
+    >>> scene = Scene.of({"scene": {"name": "harbour", "tolerance": 1e-3}, "material": [material]})
+    >>> scene.name, [m.name for m in scene.materials], scene.materials[0].tolerance
+    ('harbour', ['rust'], 0.001)
+    """
 
     name: str
     materials: tuple[Material, ...]

@@ -17,7 +17,7 @@ from xsec_sym import __version__
 from xsec_sym.record.entry import Entry
 from xsec_sym.record.files import layout
 from xsec_sym.record.show import MEANING
-from xsec_sym.report import words
+from xsec_sym.report import reference, words
 from xsec_sym.report.code import codes
 from xsec_sym.report.formula import set_
 from xsec_sym.report.items import GROUPS, Item, counted, items, misprints
@@ -104,6 +104,7 @@ def pages(record: Any, folder: Path, tick: Tick = lambda said: None) -> Iterator
     if drawn:
         yield page("charts.html", "charts.html", drawn=drawn)
     yield page("index.html", "index.html", **_index(sources, record))
+    yield page("reference.html", "reference.html", modules=reference.modules())
     tick("certificates")
     for item in found.values():
         if item.certificate:

@@ -73,6 +73,12 @@ class Quantity:
     references: the reference of columns of doubles at once, as doubles, where that is the better part of its cost.
     embed: makes the running arguments of the methods out of those here, where they fill no box: a unit vector out of
     two angles. Points and cells are in the latter; `given` is what methods and the reference get.
+
+    >>> import mpmath
+    >>> u, alpha = Argument("u", (0.0, 0.5, 1.0)), Argument("alpha", (0.1, 1.0), scale="log")
+    >>> quantity = Quantity("sine", "alpha sin(u)", (u,), (alpha,), lambda u, alpha: alpha * mpmath.sin(u))
+    >>> quantity.shape, [a.name for a in quantity.arguments]
+    ((2, 1), ['u', 'alpha'])
     """
 
     name: str
@@ -128,6 +134,10 @@ class Method:
     serial: it takes one number at a time. most: it is so slow that no more points than these are tried.
     least: the smallest array that it is timed at, where it prepares for many values only.
     needs: a package without which it is left out. model: what it computes, if it stands for a quantity that is another.
+
+    >>> taylor = Method("Taylor", "a sum", lambda n: lambda u: u - u**3 / 6 * (n > 1), "series", along(n=(1, 2)))
+    >>> [float(taylor.function(parameters)(np.array(0.6))) for parameters in taylor.curve]
+    [0.6, 0.564]
     """
 
     name: str
@@ -197,7 +207,13 @@ HOMES = {
 
 
 class UnknownQuantity(KeyError):
-    """There is no quantity of this name."""
+    """There is no quantity of this name.
+
+    >>> registered("sigma_gxx")
+    Traceback (most recent call last):
+    ...
+    xsec_sym.study.method.UnknownQuantity: there is no quantity sigma_gxx; did you mean sigma_ggx?
+    """
 
     def __str__(self) -> str:
         return str(self.args[0])
@@ -205,7 +221,12 @@ class UnknownQuantity(KeyError):
 
 @dataclass(frozen=True)
 class Field:
-    """A quantity with all its methods."""
+    """A quantity with all its methods. ValueError where two of them have one name.
+
+    >>> field = registered("lambda_ggx")
+    >>> field.quantity.name, field[field.methods[0].name] is field.methods[0]
+    ('lambda_ggx', True)
+    """
 
     quantity: Quantity
     methods: tuple[Method, ...]
@@ -227,7 +248,11 @@ class Field:
 
 
 def registered(name: str) -> Field:
-    """The quantity of this name and its methods. Raises `UnknownQuantity`."""
+    """The quantity of this name and its methods. Raises `UnknownQuantity`.
+
+    >>> [a.name for a in registered("sigma_ggx").quantity.arguments]
+    ['u', 'alpha']
+    """
     if name not in HOMES:
         from difflib import get_close_matches
 
