@@ -226,8 +226,8 @@ def test_wide_formulas_show_what_differs_and_fit_on_paper(browser):
     hidden, wide = browser.run("""
         const boxes = [...document.querySelectorAll(".formula")].filter((b) => b.scrollWidth > b.clientWidth);
         const [at, mark] = [(e) => e.getBoundingClientRect(), (b) => b.querySelector(".gone, .new, .gap")];
-        return [boxes.filter((b) => mark(b) && (at(mark(b)).left > at(b).right || at(mark(b)).right < at(b).left)).length,
-                boxes.length];""")
+        const out = (m, b) => m && (at(m).left > at(b).right || at(m).right < at(b).left);
+        return [boxes.filter((b) => out(mark(b), b)).length, boxes.length];""")
     assert wide > 2 and hidden == 0
     browser.run("dispatchEvent(new Event('beforeprint'))")
     browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})

@@ -16,7 +16,6 @@ from xsec_sym.export.printer import Unprintable, missing
 from xsec_sym.export.recipes import GENERATED, RECIPES, Recipe
 from xsec_sym.export.source import Cutting, Entangled, joined
 from xsec_sym.export.special import bessels
-from xsec_sym.export.special import bessels
 from xsec_sym.record.entry import Entry
 from xsec_sym.record.store import Ledger, nearest
 

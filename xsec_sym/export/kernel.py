@@ -6,15 +6,14 @@ import keyword
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-
 from math import log2
 
 from sympy import And, Expr, Integral, Not, Piecewise, S, Sum, Symbol, oo, piecewise_fold, preorder_traversal
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean, BooleanFunction
 
-from xsec_sym.export.printer import WIDTH, Printer, lines
 from xsec_sym.export import special
+from xsec_sym.export.printer import WIDTH, Printer, lines
 from xsec_sym.export.search import Form, Search, one_sided
 from xsec_sym.proof.domain import Domain, Interval
 from xsec_sym.record.entry import Entry

@@ -34,7 +34,7 @@ def _largest(function: Callable[..., Any], found: Sequence[Branch], count: int, 
 
 
 def judged(function: Callable[..., Any], found: Sequence[Branch], count: int) -> tuple[tuple[float, float], str]:
-    """As `largest`, and what else is to be said of float64 where so many digits are lost: errors in numbers, and NaN."""
+    """As `largest`, and what else is to be said of float64 where many digits are lost: errors as numbers, and NaN."""
     worst, (absolute, at), failed = _judged(function, found, count, np.float64)
     names = [s.name for s in found[0].domain.symbols]
 
@@ -53,8 +53,9 @@ def judged(function: Callable[..., Any], found: Sequence[Branch], count: int) ->
 def _judged(
     function: Callable[..., Any], found: Sequence[Branch], count: int, dtype: type[np.floating]
 ) -> tuple[float, tuple[float, floats.Point], list[floats.Point]]:
-    """The largest error in units of the last place, the largest as a number with its point, and what gives no number."""
-    worst, absolute = 0.0, (0.0, ())
+    """The largest error in units of the last place, the largest as a number with its point, and what gives none."""
+    worst = 0.0
+    absolute: tuple[float, floats.Point] = (0.0, ())
     failed: list[floats.Point] = []
     for branch in found:
         points = floats.points(branch.domain, count, SEED, dtype)

@@ -12,7 +12,8 @@ from sympy.printing.precedence import PRECEDENCE
 
 WIDTH = 120
 # What is taken from SciPy, and what an exported module carries with it.
-SPECIAL = {"erf": "scipy.special.erf", "erfc": "scipy.special.erfc", "erfcx": "scipy.special.erfcx", "complement": "scipy.special.erfc",
+SPECIAL = {"erf": "scipy.special.erf", "erfc": "scipy.special.erfc", "erfcx": "scipy.special.erfcx",
+           "complement": "scipy.special.erfc",
            "ive": "scipy.special.ive", "besseli": "scipy.special.iv", "besselj": "scipy.special.jv",
            "gamma": "scipy.special.gamma", "loggamma": "scipy.special.gammaln", "Ei": "scipy.special.expi",
            "expint": "scipy.special.expn", "langevin": "langevin", "ierfc": "ierfc"}  # fmt: skip

@@ -21,7 +21,7 @@ def mark(printed: Node, corrected: Node) -> None:
     >>> one, other = tree("a + b x"), tree("a - b x^2")
     >>> mark(one, other)
     >>> [(n.text, n.get("class")) for n in one.iter() if n.get("class")]
-    [('+', 'gone')]
+    [('+', 'gone'), ('x', 'gone')]
     >>> [(n.text, n.get("class")) for n in other.iter() if n.get("class")]
     [('−', 'new'), ('2', 'new')]
     """
