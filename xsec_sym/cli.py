@@ -329,8 +329,11 @@ def report(target: str, derivations: str | None) -> None:
 
     An earlier report is replaced; a folder that holds anything else is not touched.
     """
+    from time import perf_counter
+
     from xsec_sym.report import NotAReport, build
 
+    start = perf_counter()
     with saying() as tick:
         try:
             index = build(target, _ledger(derivations), tick)
@@ -339,6 +342,7 @@ def report(target: str, derivations: str | None) -> None:
         except OSError as error:
             complain(f"cannot write {target}: {error.strerror or error}")
     click.echo(str(index))
+    click.echo(f"written in {perf_counter() - start:.0f} s", err=True)
 
 
 main.command()(new)

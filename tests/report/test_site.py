@@ -5,6 +5,7 @@ import re
 import warnings
 from collections import Counter
 from html.parser import HTMLParser
+from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import numpy as np
@@ -263,6 +264,37 @@ def test_what_is_no_report_is_not_touched(tmp_path):
     assert sorted(p.name for p in tmp_path.iterdir()) == ["file", "mine"]
 
 
+def test_the_counts_are_those_of_the_files(parsed):
+    """Counted in the JSON of the record, which no class of this project reads here."""
+    import xsec_sym.record
+
+    folder = Path(xsec_sym.record.__file__).parent / "data"
+    verdicts = Counter()
+    for path in folder.rglob("*.json"):
+        for entry in entries(json.loads(path.read_text(encoding="utf-8"))):
+            verdicts[entry["verdict"]] += 1
+    lead = parsed["index.html"].of_class("lead")[0]["text"]
+    said = {name.strip(): int(count) for count, name in re.findall(r"(\d+) ([a-z ]+)", lead.partition(".")[2])}
+    words = {"proved": "proved", "confirmed": "confirmed", "misprint": "misprinted", "claim-holds": "claims that hold",
+             "claim-fails": "claims that fail", "divergent": "infinite", "definition": "definitions",
+             "out-of-scope": "beyond computation"}  # fmt: skip
+    assert said == {words[verdict]: count for verdict, count in verdicts.items()}
+    assert lead.startswith(f"{verdicts.total()} entries")
+
+
+def entries(held):
+    """Every dictionary with a verdict, wherever it is."""
+    if isinstance(held, dict):
+        if "verdict" in held and "id" in held:
+            yield held
+        else:
+            for value in held.values():
+                yield from entries(value)
+    elif isinstance(held, list):
+        for value in held:
+            yield from entries(value)
+
+
 def test_a_failure_leaves_the_old_report(tmp_path, monkeypatch):
     from xsec_sym.report import site as module
 
@@ -283,7 +315,8 @@ def test_the_command_says_where_the_page_is(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     said = CliRunner().invoke(cli.main, ["report"])
     assert said.exit_code == 0, said.output
-    assert said.output.strip() == str(tmp_path / "report" / "index.html")
+    assert said.stdout.strip() == str(tmp_path / "report" / "index.html")
+    assert re.fullmatch(r"written in \d+ s\n", said.stderr)
     said = CliRunner().invoke(cli.main, ["report", "-o", "/proc/nowhere/report"])
     assert said.exit_code == 2 and said.output.count("\n") == 1
 

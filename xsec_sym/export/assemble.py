@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 import textwrap
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any
 
+from xsec_sym.export.floats import SPECIAL
 from xsec_sym.export.kernel import VERIFIED, Branch, Refusal, branches, core, named, python_names
-from xsec_sym.export.measure import largest
-from xsec_sym.export.printer import Unprintable
+from xsec_sym.export.measure import judged, largest
+from xsec_sym.export.printer import Unprintable, missing
 from xsec_sym.export.recipes import GENERATED, RECIPES, Recipe
 from xsec_sym.export.source import Cutting, Entangled, joined
+from xsec_sym.export.special import bessels
 from xsec_sym.record.entry import Entry
 from xsec_sym.record.store import Ledger, nearest
 
 DTYPES = ("float64", "float32", None)
 KERNELS = "xsec_sym.kernels"
 WIDTH = 120
+# Before a function, while it is looked through for what it needs.
+HEAD = (
+    "import numpy as np\nimport scipy.special\n\nfrom xsec_sym.export.functions import i2e, ierfc, langevin\n"
+    "from xsec_sym.kernels._support import elementwise\n\n\n"
+)
 # Points for a function that is exported once; the generated kernels are measured at more.
 QUICK = 200
 Record = Mapping[str, Entry]
@@ -41,13 +49,17 @@ def available(record: Record | None = None) -> dict[str, str]:
     """
     record = recorded() if record is None else record
     found = {r.name: r.summary for r in RECIPES.values() if all(_stands(record, name) for name in r.ids)}
-    for entry in record.values():
-        try:
-            _branches(entry, record)
-        except Refusal:
-            continue
-        found[entry.id] = entry.title
+    for entry, parts in closed(record):
+        if not any(missing(bessels(b.form)) for b in parts):
+            found[entry.id] = entry.title
     return found
+
+
+def closed(record: Record) -> Iterator[tuple[Entry, list[Branch]]]:
+    """The verified entries that are closed forms of real variables, some with functions that have no code."""
+    for entry in record.values():
+        with contextlib.suppress(Refusal):
+            yield entry, _branches(entry, record)
 
 
 def names(record: Record | None = None) -> list[str]:
@@ -89,15 +101,15 @@ def _branches(entry: Entry, record: Record) -> list[Branch]:
 
 def written(name: str, entry: Entry, record: Record, recipe: Recipe | None = None, errors: Errors | None = None) -> str:
     """The source of a generated function and its private parts. Errors are measured where none are given."""
-    found = _branches(entry, record)
+    found, told = _branches(entry, record), ""
     try:
         body = core(name, found)
     except Unprintable as error:
         raise Refusal(f"{entry.id} cannot be exported: {error}") from error
     arguments = [s.name for s in found[0].domain.symbols]
     if errors is None:
-        errors = largest(executable(name, body, arguments), found, QUICK)
-    said = _docstring(name, entry, record, found, recipe, errors, body)
+        errors, told = judged(executable(name, body, arguments), found, QUICK)
+    said = _docstring(name, entry, record, found, recipe, errors, body, told)
     return body + "\n\n" + _public(name, arguments, said)
 
 
@@ -117,14 +129,15 @@ def executable(name: str, body: str, arguments: Sequence[str]) -> Any:
 
     from xsec_sym.kernels._support import elementwise
 
-    space: dict[str, Any] = {"np": np, "elementwise": elementwise}
+    space: dict[str, Any] = {**SPECIAL, "np": np, "elementwise": elementwise}
     exec(body + "\n\n" + _public(name, arguments, '"""."""'), space)
     return space[name]
 
 
 def _docstring(
-    name: str, entry: Entry, record: Record, found: Sequence[Branch], recipe: Recipe | None, errors: Errors, body: str
-) -> str:
+    name: str, entry: Entry, record: Record, found: Sequence[Branch], recipe: Recipe | None, errors: Errors, body: str,
+    told: str = "",
+) -> str:  # fmt: skip
     arguments = [s.name for s in found[0].domain.symbols]
     shapes = ", of shapes that broadcast" if len(arguments) > 1 else ", of any shape"
     if recipe:
@@ -144,6 +157,7 @@ def _docstring(
     semantics += ", ValueError for shapes that do not broadcast." if len(arguments) > 1 else "."
     basis = (
         f"{verdicts(entry, record)}. Largest error found: {errors[0]:g} ulp in float64, {errors[1]:g} ulp in float32."
+        f"{told}"
     )
     # a long title becomes a paragraph of its own below a short one
     head = [title] if len(title) <= WIDTH - 7 else [f"The verified form of {entry.id}.", _filled(title)]
@@ -257,8 +271,7 @@ def module(wanted: Iterable[str], dtype: str | None = "float64", record: Record 
                 if public in told:
                     raise Refusal(f"two of the names asked for become the function {public}")
                 text = _covered(public, entry, record)
-                head = "import numpy as np\n\nfrom xsec_sym.kernels._support import elementwise\n\n\n"
-                cut.add(f"entry {name}", head + text, public)
+                cut.add(f"entry {name}", HEAD + text, public)
                 told[public] = f"{entry.title}; {verdicts(entry, record).replace('`', '')}"
     except Entangled as error:
         raise Refusal(f"this cannot be made one module: {error}") from error

@@ -6,13 +6,15 @@ import keyword
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from math import log2
 
 from sympy import And, Expr, Integral, Not, Piecewise, S, Sum, Symbol, oo, piecewise_fold, preorder_traversal
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean, BooleanFunction
 
+from xsec_sym.export import special
 from xsec_sym.export.printer import WIDTH, Printer, lines
-from xsec_sym.export.search import Search, one_sided
+from xsec_sym.export.search import Form, Search, one_sided
 from xsec_sym.proof.domain import Domain, Interval
 from xsec_sym.record.entry import Entry
 
@@ -155,9 +157,10 @@ def _identifier(name: str) -> str:
 def formula(branch: Branch) -> list[str]:
     """The lines that compute one branch, in the form that rounds best."""
     # what cannot be printed is refused before anything is computed
-    lines(branch.form)
-    form, domain, meaning = one_sided(branch.form, branch.domain)
-    best = Search(form, domain).best()
+    form = special.bessels(branch.form)
+    lines(form)
+    form, domain, meaning = one_sided(form, branch.domain)
+    best = _special(form, domain) if special.concerned(form) else Search(form, domain).best()
     printer = Printer()
     sides = {v.symbol.name: v for v in branch.domain.variables if isinstance(v, Interval)}
     first = []
@@ -166,6 +169,18 @@ def formula(branch: Branch) -> list[str]:
         below = sides[symbol.name].high.is_nonpositive
         first.append(f"{new.name} = {'-' + symbol.name if below else printer._print(old)}")
     return [*first, *best.body]
+
+
+def _special(form: Expr, domain: Domain) -> Form:
+    """The best of the forms with special functions; no rule is applied to them."""
+    tried = Search(form, domain)
+    found = [tried.form(e) for e in (form, *special.candidates(form, domain))]
+
+    def digits_lost(f: Form) -> float:
+        # a sum over all points: beside a zero of the value every form loses all of them
+        return sum(log2(1 + error) for error in tried.errors(f.body))
+
+    return min(found, key=digits_lost)
 
 
 def core(name: str, found: Sequence[Branch]) -> str:

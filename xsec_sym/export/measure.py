@@ -13,11 +13,14 @@ from sympy import Expr, Integral, lambdify
 from xsec_sym.exact import RingCrossSection
 from xsec_sym.export import floats
 from xsec_sym.export.kernel import Branch
+from xsec_sym.export.special import plain
 from xsec_sym.record.entry import Entry
 
 SEED = 2016
 POINTS = 1500
 TYPES = (np.float64, np.float32)
+# Where more is lost, the docstring tells errors as numbers too.
+POOR = 1e4
 
 
 def largest(function: Callable[..., Any], found: Sequence[Branch], count: int = POINTS) -> tuple[float, float]:
@@ -26,7 +29,34 @@ def largest(function: Callable[..., Any], found: Sequence[Branch], count: int = 
 
 
 def _largest(function: Callable[..., Any], found: Sequence[Branch], count: int, dtype: type[np.floating]) -> float:
+    worst, _, _ = _judged(function, found, count, dtype)
+    return math.ceil(10 * worst) / 10 if math.isfinite(worst) else worst
+
+
+def judged(function: Callable[..., Any], found: Sequence[Branch], count: int) -> tuple[tuple[float, float], str]:
+    """As `largest`, and what else is to be said of float64 where many digits are lost: errors as numbers, and NaN."""
+    worst, (absolute, at), failed = _judged(function, found, count, np.float64)
+    names = [s.name for s in found[0].domain.symbols]
+
+    def said(point: floats.Point) -> str:
+        return ", ".join(f"{name} = {x:.3g}" for name, x in zip(names, point, strict=True))
+
+    told = ""
+    if worst > POOR:
+        told = f" As a number, the largest error in float64 is {absolute:.1e}, at {said(at)}."
+    if failed:
+        told += f" At {len(failed)} of {count} points a step leaves the range of numbers, such as {said(failed[0])}."
+    rounded = math.ceil(10 * worst) / 10 if math.isfinite(worst) else worst
+    return (rounded, _largest(function, found, count, np.float32)), told
+
+
+def _judged(
+    function: Callable[..., Any], found: Sequence[Branch], count: int, dtype: type[np.floating]
+) -> tuple[float, tuple[float, floats.Point], list[floats.Point]]:
+    """The largest error in units of the last place, the largest as a number with its point, and what gives none."""
     worst = 0.0
+    absolute: tuple[float, floats.Point] = (0.0, ())
+    failed: list[floats.Point] = []
     for branch in found:
         points = floats.points(branch.domain, count, SEED, dtype)
         if not points:
@@ -38,12 +68,16 @@ def _largest(function: Callable[..., Any], found: Sequence[Branch], count: int, 
             if branch.form.is_infinite:
                 worst = max(worst, 0.0 if value == float(branch.form) else math.inf)
                 continue
-            reference = floats.exact(branch.form, branch.domain.symbols, point)
+            reference = floats.exact(plain(branch.form), branch.domain.symbols, point)
             # beside a bound that is itself computed, rounding may put an argument outside
             lost = value != value and bool(branch.domain.conditions)
             if reference is not None and not lost:
                 worst = max(worst, floats.ulps(value, reference, dtype))
-    return math.ceil(10 * worst) / 10 if math.isfinite(worst) else worst
+                if math.isfinite(value):
+                    absolute = max(absolute, (float(abs(value - reference)), point))
+                elif value != float(reference):
+                    failed.append(point)
+    return worst, absolute, failed
 
 
 def integrand(entry: Entry) -> tuple[Expr, Any, Any] | None:

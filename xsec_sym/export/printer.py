@@ -11,11 +11,17 @@ from sympy.printing.numpy import NumPyPrinter
 from sympy.printing.precedence import PRECEDENCE
 
 WIDTH = 120
+# What is taken from SciPy, and what an exported module carries with it.
+SPECIAL = {"erf": "scipy.special.erf", "erfc": "scipy.special.erfc", "erfcx": "scipy.special.erfcx",
+           "complement": "scipy.special.erfc",
+           "ive": "scipy.special.ive", "besseli": "scipy.special.iv", "besselj": "scipy.special.jv",
+           "gamma": "scipy.special.gamma", "loggamma": "scipy.special.gammaln", "Ei": "scipy.special.expi",
+           "expint": "scipy.special.expn", "langevin": "langevin", "ierfc": "ierfc"}  # fmt: skip
 HALF = Rational(1, 2)
 
 
 class Unprintable(ValueError):
-    """An expression has a part that NumPy has no function for."""
+    """An expression has a part that neither NumPy nor SciPy has a function for."""
 
 
 class AtLeastZero(Function):
@@ -49,16 +55,18 @@ class Printer(NumPyPrinter):
         if isinstance(expr, Expr) and not expr.free_symbols and expr.is_extended_real:
             return self.constant(expr)
         if self.known_functions.get(type(expr).__name__, "").startswith("math."):
-            raise Unprintable(f"NumPy has no {type(expr).__name__}")
+            return self._print_Function(expr)
         return super()._print(expr, **kwargs)
 
     def _print_not_supported(self, expr: Expr) -> str:
-        raise Unprintable(f"NumPy has no {type(expr).__name__}")
+        raise Unprintable(f"neither NumPy nor SciPy has {type(expr).__name__}")
 
     def _print_Function(self, expr: Expr) -> str:
         name = type(expr).__name__
+        if name in SPECIAL:
+            return f"{SPECIAL[name]}({', '.join(self._print(a) for a in expr.args)})"
         if name not in self.known_functions or not self.known_functions[name].startswith("numpy."):
-            raise Unprintable(f"NumPy has no {name}")
+            self._print_not_supported(expr)
         arguments = ", ".join(self._print(a) for a in expr.args)
         return f"{self._module_format(self.known_functions[name])}({arguments})"
 
@@ -136,6 +144,29 @@ class Printer(NumPyPrinter):
     def _print_WithinOne(self, expr: Expr) -> str:
         return f"np.maximum(-1.0, np.minimum(1.0, {self._print(expr.args[0])}))"
 
+    def _print_besseli(self, expr: Expr) -> str:
+        return self._print_Function(expr)
+
+    def _print_ive(self, expr: Expr) -> str:
+        order, z = expr.args
+        name = {0: "scipy.special.i0e(", 1: "scipy.special.i1e(", 2: "i2e("}.get(order, f"scipy.special.ive({order}, ")
+        return f"{name}{self._print(z)})"
+
+    def _print_coth(self, expr: Expr) -> str:
+        return f"1.0 / np.tanh({self._print(expr.args[0])})"
+
+    def _print_csch(self, expr: Expr) -> str:
+        return f"1.0 / np.sinh({self._print(expr.args[0])})"
+
+    def _print_sech(self, expr: Expr) -> str:
+        return f"1.0 / np.cosh({self._print(expr.args[0])})"
+
+    def _print_polylog(self, expr: Expr) -> str:
+        order, z = expr.args
+        if order != 2:
+            self._print_not_supported(expr)
+        return f"scipy.special.spence({self._print(1 - z)})"
+
     def _print_Heaviside(self, expr: Heaviside) -> str:
         return f"np.heaviside({self._print(expr.args[0])}, {self._print(expr.args[1])})"
 
@@ -162,6 +193,16 @@ class Printer(NumPyPrinter):
 
     def _print_Relational(self, expr: Boolean) -> str:
         return f"{self._print(expr.lhs)} {expr.rel_op} {self._print(expr.rhs)}"
+
+
+def missing(e: Expr) -> str:
+    """The name of a function in it that has no code, or nothing."""
+    printer = Printer()
+    for name in sorted({type(part).__name__ for part in e.atoms(Function) if part.free_symbols}):
+        known = name in SPECIAL or printer.known_functions.get(name, "").startswith("numpy.")
+        if not known and not hasattr(printer, f"_print_{name}"):
+            return name
+    return ""
 
 
 def _negative(e: Expr) -> bool:

@@ -27,6 +27,7 @@ from sympy import (
 )
 from sympy.codegen.cfunctions import expm1, log1p
 
+from xsec_sym.export import special
 from xsec_sym.proof.piece import Piece
 
 Rule = Callable[[Expr, Piece], Iterator[Expr]]
@@ -40,8 +41,8 @@ class NotShown(ValueError):
 
 
 def plain(e: Expr) -> Expr:
-    """The same with log1p and expm1 written out, in which the proof engine knows its way."""
-    return e.replace(log1p, lambda x: log(1 + x)).replace(expm1, lambda x: exp(x) - 1)
+    """The same with log1p, expm1 and scaled functions written out, in which the proof engine knows its way."""
+    return special.plain(e).replace(log1p, lambda x: log(1 + x)).replace(expm1, lambda x: exp(x) - 1)
 
 
 def checked(old: Expr, new: Expr, piece: Piece) -> Expr:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -49,9 +50,12 @@ class Search:
 
     def form(self, e: Expr) -> Form:
         body = tuple(lines(guarded(e, self._smallest)))
+        return Form(e, body, max(self.errors(body), default=0.0))
+
+    def errors(self, body: Sequence[str]) -> list[float]:
+        """In units of the last place at every point."""
         values = floats.values(body, self.symbols, self.points)
-        errors = [floats.ulps(v, r) for v, r in zip(values.tolist(), self.references, strict=True)]
-        return Form(e, body, max((min(error, LOST) for error in errors), default=0.0))
+        return [min(floats.ulps(v, r), LOST) for v, r in zip(values.tolist(), self.references, strict=True)]
 
     def _smallest(self, e: Expr) -> float:
         if e not in self._least:

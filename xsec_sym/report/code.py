@@ -17,7 +17,6 @@ from xsec_sym.record.entry import Entry
 from xsec_sym.record.files import layout, writing
 
 STORED = Path(__file__).parent / "data" / "code.json"
-HEAD = "import numpy as np\n\nfrom xsec_sym.kernels._support import elementwise\n\n\n"
 Record = Mapping[str, Entry]
 
 
@@ -74,6 +73,7 @@ def codes(record: Record) -> dict[str, Code]:
 
 
 def _module(public: str, name: str, text: str) -> str:
+    from xsec_sym.export.assemble import HEAD
     from xsec_sym.export.source import Cutting, joined
 
     cut = Cutting()
@@ -83,16 +83,16 @@ def _module(public: str, name: str, text: str) -> str:
 
 def look(record: Record, names: Iterable[str] | None = None) -> None:
     """Export what is missing or out of date, and drop what is no longer recorded."""
-    from xsec_sym.export.assemble import available, function_name, written
+    from xsec_sym.export.assemble import closed, function_name, written
     from xsec_sym.export.kernel import Refusal
     from xsec_sym.export.recipes import RECIPES
 
     cells = {name for r in RECIPES.values() for name in (r.cell, *r.ids)}
-    wanted = {name for name in available(record) if name in record and name not in cells}
+    wanted = {entry.id for entry, _ in closed(record)} - cells
     found = {name: code for name, code in kept().items() if name in wanted}
     for name in sorted(wanted if names is None else wanted & set(names)):
         key = fingerprint(record[name], record)
-        if found.get(name, {}).get("key") == key:
+        if names is None and found.get(name, {}).get("key") == key and not _improved(found[name], name, record):
             continue
         try:
             found[name] = {"key": key, "text": written(function_name(name), record[name], record)}
@@ -104,6 +104,13 @@ def look(record: Record, names: Iterable[str] | None = None) -> None:
         print(f"{name}: {found[name].get('refused', 'exported')}", flush=True)
         with writing(STORED) as out:
             out.write(layout(dict(sorted(found.items())), 2) + "\n")
+
+
+def _improved(code: dict[str, Any], name: str, record: Record) -> bool:
+    """Whether the exporter has learned what it lacked for a form; named entries are exported anew in any case."""
+    from xsec_sym.export.assemble import available
+
+    return "refused" in code and name in available({name: record[name]})
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ def mark(printed: Node, corrected: Node) -> None:
     >>> one, other = tree("a + b x"), tree("a - b x^2")
     >>> mark(one, other)
     >>> [(n.text, n.get("class")) for n in one.iter() if n.get("class")]
-    [('+', 'gone')]
+    [('+', 'gone'), ('x', 'gone')]
     >>> [(n.text, n.get("class")) for n in other.iter() if n.get("class")]
     [('−', 'new'), ('2', 'new')]
     """
@@ -36,7 +36,11 @@ def mark(printed: Node, corrected: Node) -> None:
                 _as_row(printed, place)
                 _as_row(corrected, place)
             mark(printed[place], corrected[place])
-    elif not (_wraps(corrected, printed, NEW) or _wraps(printed, corrected, GONE)):
+    elif _wraps(corrected, printed, NEW):
+        # what is about it is marked beside; in print, the thing itself shows the place
+        if sum(len(node) == 0 for node in printed.iter()) <= 3:
+            _flag([printed], GONE)
+    elif not _wraps(printed, corrected, GONE):
         _flag([printed], GONE)
         _flag([corrected], NEW)
 

@@ -14,7 +14,7 @@ GREEK = {
     "phi": "φ", "varphi": "φ", "chi": "χ", "psi": "ψ", "Psi": "Ψ", "omega": "ω", "ell": "ℓ", "Gamma": "Γ", "oo": "∞",
 }  # fmt: skip
 SIGNS = {"<=": "≤", ">=": "≥", "!=": "≠", "-": "−", "*": "·", "|": "or", "&": "and"}
-BALL = re.compile(r"\[?(?P<middle>-?[\d.e+-]+) \+/- (?P<radius>[\d.e+-]+)\]?")
+BALL = re.compile(r"\[?(?:(?P<middle>-?[\d.e+-]+) )?\+/- (?P<radius>[\d.e+-]+)\]?")
 
 
 def href(name: str) -> str:
@@ -80,9 +80,11 @@ def ball(text: str) -> str:
 
     >>> ball("[14.969063729665949471 +/- 2.09e-19]")
     '14.969063729665949471 ± 2.09e−19'
+    >>> ball("[+/- 3.39e-111]")
+    '0 ± 3.39e−111'
     """
     found = BALL.fullmatch(text)
-    return f"{found['middle']} ± {found['radius']}".replace("-", "−") if found else text
+    return f"{found['middle'] or 0} ± {found['radius']}".replace("-", "−") if found else text
 
 
 def said(value: Any) -> str:

@@ -48,9 +48,24 @@
       if (over) box.tabIndex = 0; else box.removeAttribute("tabindex");
     }
   };
+  const revealed = () => { // what differs is in sight, however wide the formula
+    const marks = all(".formula").filter((box) => box.scrollWidth > box.clientWidth).map((box) => [box, $(".gone, .new, .gap", box)]);
+    const places = marks.filter(([, mark]) => mark).map(([box, mark]) => {
+      const [outer, inner] = [box.getBoundingClientRect(), mark.getBoundingClientRect()];
+      return [box, inner.right > outer.right ? inner.left - outer.left - outer.width / 2 : 0];
+    });
+    for (const [box, left] of places) box.scrollLeft += left;
+  };
+  const fitted = () => { // on paper nothing can be scrolled: 40 rem are about the width of a sheet
+    const sheet = 40 * parseFloat(getComputedStyle(root).fontSize);
+    const wide = all(".formula").map((box) => [box, Math.max(...all("math", box).map((m) => m.getBoundingClientRect().width), 1)]);
+    for (const [box, width] of wide) box.style.setProperty("--fit", Math.min(1, sheet / width).toFixed(3));
+  };
   let waiting = 0;
   addEventListener("resize", () => { clearTimeout(waiting); waiting = setTimeout(reachable, 200); });
   addEventListener("load", reachable);
+  addEventListener("load", revealed);
+  addEventListener("beforeprint", fitted);
 
   // --- search --------------------------------------------------------------------------------
   const search = $("#search");
