@@ -143,7 +143,7 @@ def module() -> str:
     parts += [f"{name} = [\n{''.join(cells)}]\n" for name, cells in found.items()]
     parts.append(
         "# Proved bounds on the errors by cell, relative to sigma(-v) or to the function of a line; where that is\n"
-        "# singular at 0, from START on: of alpha^2 in LAYER, of 1/(kappa s) in EDGE, and of HALF/(HALF + z) in HALF_LAYER.\n"
+        "# singular at 0, from START on: of alpha^2 in LAYER, of 1/(kappa s) in EDGE, and of t in HALF_LAYER.\n"
         f"START = {bounds.START!r}\nBOUND = {{\n"
         + "".join(f'    "{name}":\n{packed(row, 8)}],\n' for name, row in proved.items())
         + "}\n"

@@ -31,7 +31,8 @@ at START, which leaves nothing out for alpha >= 1e-4; what is beyond is only see
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from math import ceil, floor, log10
+from importlib import import_module
+from math import ceil, floor, inf, log10
 
 from flint import acb, arb
 
@@ -68,8 +69,9 @@ from xsec_sym.proof.ball_compile import precision
 START = {"LAYER": 1e-8, "EDGE": 1e-8, "HALF_LAYER": 1e-4}
 # What remainders may contribute, relative to sigma(-v).
 REMAINDER = arb("1e-19")
-# Boxes in which the scale of errors is bounded, either way.
+# Boxes of either variable, in which errors and their scale are compared.
 BOXES = 128
+PREFIXES = ("", "FAST_")
 
 
 def _even_x(arcs: list[acb]) -> Known:
@@ -251,26 +253,28 @@ def spans(name: str, cell: Cell) -> list[tuple[Span, Span]]:
     return [(Span(*x, x), Span(*y, y))]
 
 
-def proved(name: str, x: Span, y: Span, tables: Mapping[str, Table]) -> dict[str, arb]:
+def proved(name: str, x: Span, y: Span, made: Mapping[str, Table]) -> dict[str, arb]:
     """What the tables of a cell, one by prefix, are off by on a part of it, relative to sigma(-v).
 
     The first of them must be positive where sigma is, if the bound is to be finite.
     """
     with precision(BITS):
-        first, *_ = rows = list(tables.values())
+        first, *_ = rows = list(made.values())
         scales = _scales(name, first, x, y)
         lowest = least([scale for row in scales for scale in row])
-        plan = planned(x, y, MAJORANTS[name], rows, REMAINDER * lowest.max(REMAINDER))
+        if not lowest > 0:
+            return dict.fromkeys(made, arb("inf"))
+        plan = planned(x, y, MAJORANTS[name], rows, REMAINDER * lowest)
         value = REGIONS[name].value
         found = missed(x, y, plan, lambda here, there: value(here, there, enclosed)[0], rows)
         off = [one.on(BOXES, BOXES) for one in found]
-        return {prefix: _relative(one, off[0], scales) for prefix, one in zip(tables, off, strict=True)}
+        return {prefix: _relative(one, off[0], scales) for prefix, one in zip(made, off, strict=True)}
 
 
-def cell_bounds(name: str, cell: Cell, tables: Mapping[str, Table]) -> dict[str, float]:
+def cell_bounds(name: str, cell: Cell, made: Mapping[str, Table]) -> dict[str, float]:
     """The same for the whole cell, from START on, rounded up."""
-    found = [proved(name, x, y, tables) for x, y in spans(name, cell)]
-    return {prefix: rounded_up(greatest([part[prefix] for part in found])) for prefix in tables}
+    found = [proved(name, x, y, made) for x, y in spans(name, cell)]
+    return {prefix: rounded_up(greatest([part[prefix] for part in found])) for prefix in made}
 
 
 def line_bound(name: str, row: Sequence[float]) -> float:
@@ -289,6 +293,26 @@ def line_bound(name: str, row: Sequence[float]) -> float:
 
 def rounded_up(bound: arb) -> float:
     """To three digits."""
-    value = float(bound)
+    if not bound.is_finite():
+        return inf
+    value = float(bound) * (1 + 1e-12)
     unit = 10.0 ** (floor(log10(value)) - 2)
     return float(f"{ceil(value / unit) * unit:.2e}")
+
+
+def main() -> None:
+    """Prove the kernel's tables anew, and print the largest bound of each."""
+    # The generator needs this module before there are any tables.
+    tables = import_module("xsec_sym.kernels._spherical_gaussian_tables")
+    for bare in ("HALF_LAYER", "MEAN_COSINE"):
+        for name in (bare, f"FAST_{bare}"):
+            print(f"{name:17}{line_bound(bare, getattr(tables, name)[0]):.2e}", flush=True)
+    for name, region in REGIONS.items():
+        made = [{prefix: getattr(tables, prefix + name)[i] for prefix in PREFIXES} for i in range(len(region.cells()))]
+        found = [cell_bounds(name, cell, here) for cell, here in zip(region.cells(), made, strict=True)]
+        for prefix in PREFIXES:
+            print(f"{prefix + name:17}{max(here[prefix] for here in found):.2e}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1697,7 +1697,7 @@ FAST_EDGE = [
 ]
 
 # Proved bounds on the errors by cell, relative to sigma(-v) or to the function of a line; where that is
-# singular at 0, from START on: of alpha^2 in LAYER, of 1/(kappa s) in EDGE, and of HALF/(HALF + z) in HALF_LAYER.
+# singular at 0, from START on: of alpha^2 in LAYER, of 1/(kappa s) in EDGE, and of t in HALF_LAYER.
 START = {'LAYER': 1e-08, 'EDGE': 1e-08, 'HALF_LAYER': 0.0001}
 BOUND = {
     "HALF_LAYER":
