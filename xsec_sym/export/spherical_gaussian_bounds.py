@@ -16,9 +16,10 @@ What is left to know is how large each region's function is for complex variable
   t^2/2. If Re z >= 0, h(z) = 2/sqrt(pi) int_0^inf t exp(-t^2 - 2 z t) dt is 1/sqrt(pi) at most; else it is h(-z) -
   2 z exp(z^2), where |arg z| <= pi/2 + |arg kappa|/2 + |arg(1 + s)|/2 makes Re z^2 <= 0 as long as |arg kappa| +
   |arg s| <= pi/2, and this is asked for;
-- RIM and EDGE come from q = exp(-P) int_0^inf T exp(-v T) I0(sqrt(P^2 - s^2 T^2)) dT, P = kappa s. The real part of
-  that root is sqrt((Re P)^2 + (b T)^2) at most, b = |Im s|, so that |q| <= exp(2 max(0, -Re P))/(Re v - b)^2: it is
-  analytic in P and in s^2 where Re v > b. Re v is harmonic in s^2, b subharmonic: Re v - b is least on a boundary.
+- RIM and EDGE come from q = exp(-P) int_0^inf T exp(-v T) I0(sqrt(P^2 - s^2 T^2)) dT, P = kappa s, of which Lipschitz's
+  integral, differentiated, gives the part beyond T = kappa. The real part of that root is sqrt((Re P)^2 + (b T)^2) at
+  most, b = |Im s|, so that |q| <= exp(2 max(0, -Re P))/(Re v - b)^2: it is analytic in P and in s^2 where Re v > b.
+  Re v is harmonic in s^2 and b subharmonic, so that Re v - b is least on a boundary.
 
 Errors count relative to sigma(-v), as a region's function gives it: EVEN less c v/2, LAYER with kappa times its layer,
 the others as they are. A table has no values below its polynomial's, less the bound itself.
@@ -152,7 +153,7 @@ def _rim(x: Known, y: Known) -> arb | None:
     if not radius < 0.97:
         return None
     room = _decay([acb(radius * turn.cos_pi(), radius * turn.sin_pi()) for turn in half_turn(32)])
-    return (2 * behind).exp() / (room * room) if room else None
+    return None if room is None else (2 * behind).exp() / (room * room)
 
 
 def _decay(squares: list[acb]) -> arb | None:
