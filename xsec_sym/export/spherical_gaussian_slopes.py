@@ -27,8 +27,9 @@ from flint import arb
 from mpmath import mp, mpf
 
 from xsec_sym.export import spherical_gaussian as sigma
+from xsec_sym.export import spherical_gaussian_functions as functions
 from xsec_sym.export.polynomials import packed, polynomial
-from xsec_sym.export.spherical_gaussian import SHIFT, Cell, Region
+from xsec_sym.export.spherical_gaussian_functions import SHIFT, Cell, Region
 from xsec_sym.proof.ball_compile import precision
 from xsec_sym.record.files import writing
 
@@ -39,11 +40,11 @@ LEFT_OUT, ALLOWED = mpf("4e-16"), mpf("2e-15")
 def integrals(v: arb, s: arb, kappa: arb) -> tuple[arb, arb, arb]:
     """exp(w) N times the integrals of t I0, t^2 I0 and t sqrt(1 - t^2) I1, each times exp(-kappa v t)."""
     ks, kv = kappa * s, kappa * v
-    room = 2 * sigma.NEGLIGIBLE
+    room = 2 * functions.NEGLIGIBLE
     reach = room / (kv + (kv * kv + room * ks).sqrt())
     reach = reach.mid() if reach < 1.2 else arb.pi() / 2
     totals = [arb(0), arb(0), arb(0)]
-    for node, weight in sigma.rule(sigma.POINTS):
+    for node, weight in functions.rule(functions.POINTS):
         half_sine, half_cosine = (node * reach / 2).sin_cos()
         t = 2 * half_sine * half_cosine
         root = (half_cosine - half_sine) * (half_cosine + half_sine)
@@ -69,7 +70,7 @@ def slope_u(v: arb, s: arb, kappa: arb) -> arb:
 def slope_kappa(v: arb, s: arb, kappa: arb) -> arb:
     """exp(w) K."""
     first, second, odd = integrals(v, s, kappa)
-    return sigma.mean_cosine(kappa) * first + v * second - s * odd
+    return functions.mean_cosine(kappa) * first + v * second - s * odd
 
 
 Value = tuple[arb, arb]
@@ -80,7 +81,7 @@ def even(slope: Slope, square: arb, kappa_square: arb) -> Value:
     v, kappa, s = square.sqrt(), kappa_square.sqrt(), (1 - square).sqrt()
     dark = slope(v, s, kappa) * (-kappa * (1 - s)).exp()
     if slope is slope_u:
-        return (sigma.mean_cosine(kappa) / 2 - dark) / (kappa_square * v), dark / (kappa_square * v)
+        return (functions.mean_cosine(kappa) / 2 - dark) / (kappa_square * v), dark / (kappa_square * v)
     return (fading(kappa) * v / 2 - dark) / kappa, dark / kappa
 
 
@@ -92,7 +93,7 @@ def round_(slope: Slope, v: arb, kappa: arb) -> Value:
 
 
 def scaled_erfc(z: arb) -> arb:
-    with precision(3 * sigma.BITS):
+    with precision(3 * functions.BITS):
         value = (z * z).exp() * z.erfc()
     return value
 
@@ -100,9 +101,9 @@ def scaled_erfc(z: arb) -> arb:
 def layer(slope: Slope, shifted: arb, alpha_square: arb) -> Value:
     s, kappa = 1 / shifted - SHIFT, 2 / alpha_square
     v, z = ((1 - s) * (1 + s)).sqrt(), (kappa * (1 - s)).sqrt()
-    whole, half = slope(v, s, kappa), sigma.half_layer(z) * (1 + s).sqrt()
+    whole, half = slope(v, s, kappa), functions.half_layer(z) * (1 + s).sqrt()
     if slope is slope_u:
-        c, unit = sigma.mean_cosine(kappa), s * kappa.sqrt() / v
+        c, unit = functions.mean_cosine(kappa), s * kappa.sqrt() / v
         return (whole - c * (1 + s) / (4 * s) * scaled_erfc(z)) * unit - c / (4 * (1 + s)) * half, whole * unit
     whole *= kappa * kappa.sqrt()
     return whole + kappa * fading(kappa) / 2 * half, whole
@@ -114,7 +115,7 @@ def rim(slope: Slope, s: arb, kappa: arb) -> Value:
     whole = slope(v, s, kappa)
     if slope is slope_u:
         return whole * rest / kappa - beyond * (1 + 1 / kappa), whole * rest / kappa
-    first = sigma.mean_cosine(kappa) * integrals(v, s, kappa)[0]
+    first = functions.mean_cosine(kappa) * integrals(v, s, kappa)[0]
     value = (first - whole) * rest / kappa - v * beyond * (1 + 2 / kappa + 2 / kappa**2)
     return value * kappa**3, whole * rest * kappa**2
 
@@ -137,11 +138,11 @@ SLOPES = {"U_": slope_u, "KAPPA_": slope_kappa}
 
 def region(prefix: str, name: str) -> Region:
     slope, function = SLOPES[prefix], FUNCTIONS[name]
-    return sigma.REGIONS[name]._replace(value=lambda x, y: function(slope, x, y))
+    return functions.REGIONS[name]._replace(value=lambda x, y: function(slope, x, y))
 
 
 def table(place: Region, cell: Cell) -> list[list[float]]:
-    with precision(sigma.BITS), mp.workdps(sigma.DIGITS):
+    with precision(functions.BITS), mp.workdps(functions.DIGITS):
         values, scale = sigma.sampled(place, cell)
         return polynomial(values, LEFT_OUT * scale)
 
@@ -150,13 +151,13 @@ def lines() -> dict[str, list[float]]:
     """erfcx(z) (1 + z) in HALF/(HALF + z), and c' in kappa^2 where EVEN is."""
 
     def erfcx(t: arb) -> arb:
-        z = sigma.HALF / t - sigma.HALF
+        z = functions.HALF / t - functions.HALF
         return scaled_erfc(z) * (1 + z)
 
     room = LEFT_OUT / 10
     return {
         "ERFCX": sigma.line(erfcx, 0, 1, 40, room),
-        "FADING": sigma.line(lambda square: fading(square.sqrt()), 0, sigma.REGIONS["EVEN"].y[-1], 20, room),
+        "FADING": sigma.line(lambda square: fading(square.sqrt()), 0, functions.REGIONS["EVEN"].y[-1], 20, room),
     }
 
 

@@ -1695,3 +1695,39 @@ FAST_EDGE = [
       [8.165204411870299e-07, -2.9733662511387397e-07],
     ],
 ]
+
+# Proved bounds on the errors by cell, relative to sigma(-v) or to the function of a line; where that is
+# singular at 0, from START on: of alpha^2 in LAYER, of 1/(kappa s) in EDGE, and of t in HALF_LAYER.
+START = {'LAYER': 1e-08, 'EDGE': 1e-08, 'HALF_LAYER': 0.0001}
+BOUND = {
+    "HALF_LAYER":
+        [4.85e-17],
+    "MEAN_COSINE":
+        [5.69e-18],
+    "FAST_HALF_LAYER":
+        [1.51e-09],
+    "FAST_MEAN_COSINE":
+        [1.12e-09],
+    "EVEN":
+        [8.8e-17, 2.54e-16, 2.76e-16],
+    "FAST_EVEN":
+        [2.92e-08, 2.1e-08, 2.88e-08],
+    "ROUND":
+        [6.6e-17, 1.81e-16, 1.56e-16, 1.57e-16, 1.05e-16, 7.21e-17, 6.74e-17, 1.66e-16, 7.64e-17, 1.06e-16, 1.45e-16,
+         8.11e-17, 7.91e-17, 6.44e-17, 5.5e-17, 3.98e-16],
+    "FAST_ROUND":
+        [2.44e-08, 2.64e-08, 3.06e-08, 1.68e-08, 1.76e-08, 3.12e-08, 2.13e-08, 2.16e-08, 2.59e-08, 2.66e-08,
+         2.36e-08, 2.24e-08, 1.86e-08, 2.8e-08, 3.15e-08, 1.79e-08],
+    "LAYER":
+        [9.69e-17, 1.05e-16, 7.76e-17, 6.14e-17, 7.76e-17, 9.37e-17, 7.27e-17, 6.65e-17, 1.04e-16, 6.73e-17],
+    "FAST_LAYER":
+        [1.47e-08, 2.66e-08, 3.04e-08, 4.24e-08, 2.88e-08, 4.33e-08, 3.24e-08, 4.12e-08, 3.36e-08, 2.82e-08],
+    "RIM":
+        [1.11e-16, 9.03e-17],
+    "FAST_RIM":
+        [2.7e-08, 3.24e-08],
+    "EDGE":
+        [9.45e-17, 8.18e-17, 1.34e-16],
+    "FAST_EDGE":
+        [3.46e-08, 3.3e-08, 2.73e-08],
+}
