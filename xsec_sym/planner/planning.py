@@ -198,7 +198,17 @@ def _measurements(scene: Scene, measure: bool, tick: Tick) -> tuple[dict[str, An
             data[name] = files.stored(name)
         except files.Unmeasured as error:
             raise BadScene(str(error)) from None
+    if measure:
+        tick("tables")
     return data, tables.measured() if measure else None
+
+
+def steps(scene: Scene, measure: bool) -> int:
+    """How often `plan` says what it begins."""
+    from xsec_sym.study import files
+
+    quantities = {m.quantity.name for m in scene.materials} if measure else set()
+    return len(scene.materials) + measure + sum(map(files.steps, quantities))
 
 
 def _chosen(

@@ -79,8 +79,7 @@ def pages(record: Any, folder: Path, tick: Tick = lambda said: None) -> Iterator
     tick("code")
     found = items(record, codes(record))
     sources = papers(record)
-    tick("charts")
-    drawn = charts(folder)
+    drawn = charts(folder, tick)
     table = rows(record, found) if any(name.startswith(TABLE) for name in record) else []
     inside = Environment(
         loader=PackageLoader("xsec_sym.report"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
@@ -153,24 +152,42 @@ def _search(found: dict[str, Item]) -> str:
     return f'"use strict";\nwindow.RECORD = [\n{lines}\n];\n'
 
 
-def charts(folder: Path) -> list[dict[str, Any]]:
-    """Draw what has a stored measurement, on two cores: each picture takes about a second."""
-    from joblib import Parallel, delayed
+def steps(record: Any) -> int:
+    """How often `build` says what it begins."""
+    return 2 + 2 * len(_stored()) + len(papers(record))
 
+
+def _stored() -> dict[str, Any]:
+    """The measurements that can be drawn."""
     from xsec_sym.study import files
-    from xsec_sym.study.method import HOMES, registered
+    from xsec_sym.study.method import HOMES
 
     found = {}
     for name in HOMES:
         with contextlib.suppress(files.Unmeasured):
             found[name] = files.stored(name)
+    return found
+
+
+def charts(folder: Path, tick: Tick = lambda said: None) -> list[dict[str, Any]]:
+    """Draw what has a stored measurement, on two cores: each picture takes about a second."""
+    from joblib import Parallel, delayed
+
+    from xsec_sym.study import files
+    from xsec_sym.study.method import registered
+
+    found = _stored()
     if found:
         (folder / "charts").mkdir()
     pictures = [(name, stability) for name in found for stability in (False, True)]
-    Parallel(n_jobs=min(2, os.cpu_count() or 1, len(pictures) or 1))(
+    drawing = Parallel(n_jobs=min(2, os.cpu_count() or 1, len(pictures) or 1), return_as="generator")(
         delayed(_draw)(name, folder / "charts" / f"{name}{'-stability' * stability}.svg", stability)
         for name, stability in pictures
     )
+    # they come in one by one and in order: what is told is the next
+    for name, _ in pictures:
+        tick(f"the charts of {name}")
+        next(drawing)
     return [
         {
             "name": name,
