@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any
 
 import click
 from click.shell_completion import BashComplete, CompletionItem, add_completion_class, get_completion_class
 
-SHELLS = ("bash", "zsh", "fish")
 Items = list[CompletionItem]
 
 
@@ -95,12 +96,24 @@ def ids_and_sources(context: click.Context, word: str) -> Items:
 
 
 def exports(context: click.Context, word: str) -> Items:
-    """Names of `xsec export`. Whether an equation can be written as code is not known without SymPy: all that hold."""
+    """The names of functions, the entries that these rest on, and those of which the report keeps code.
+
+    Which of the second kind can be written alone is not known without SymPy; a refusal names the function to take.
+    """
     from xsec_sym.export.recipes import RECIPES
 
-    holds = ("proved", "confirmed", "misprint")
-    forms = [e for e in _record(context).values() if e.kind == "equation" and e.verdict in holds]
+    record = _record(context)
+    behind = [name for r in RECIPES.values() for name in (*r.ids, r.cell)]
+    coded = [name for name, stored in _code().items() if "text" in stored]
+    forms = [record[name] for name in dict.fromkeys([*behind, *coded]) if name in record]
     return _items([(r.name, r.summary) for r in RECIPES.values()] + [(e.id, e.title) for e in forms], word)
+
+
+def _code() -> dict[str, Any]:
+    # by its path: the package imports what draws pages
+    path = Path(__file__).parent / "report" / "data" / "code.json"
+    found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+    return found
 
 
 def quantities(context: click.Context, word: str) -> Items:

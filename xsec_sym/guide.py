@@ -100,10 +100,11 @@ def state(record: Mapping[str, Entry]) -> str:
     """
     if not record:
         return "The record is empty."
+    from xsec_sym.record.show import UNSETTLED
+
     count = Counter(e.verdict for e in record.values())
     wide = [("proved or confirmed", count["proved"] + count["confirmed"]), ("misprints mended", count["misprint"])]
-    unsettled = sum(not e.settled for e in record.values())
-    wide += [("claims that fail", count["claim-fails"]), ("not settled", unsettled)]
+    wide += [("claims that fail", count["claim-fails"]), ("not settled", sum(count[word] for word in UNSETTLED))]
     sources = len({e.source for e in record.values()})
     said = ", ".join(f"{number} {name}" for name, number in wide)
     return f"The record: {len(record)} entries of {sources} sources; {said}."

@@ -93,10 +93,11 @@ def _end_children() -> None:
     for child in multiprocessing.active_children():
         child.kill()
         child.join()
-    if "joblib.externals.loky.reusable_executor" in sys.modules:
-        from joblib.externals.loky import get_reusable_executor
-
-        get_reusable_executor().shutdown(wait=True, kill_workers=True)
+    # joblib's processes are ended with its executor, if there is one: asking for it would make it
+    loky = sys.modules.get("joblib.externals.loky.reusable_executor")
+    executor = getattr(loky, "_executor", None)
+    if executor is not None:
+        executor.shutdown(wait=True, kill_workers=True)
 
 
 class Count(click.IntRange):

@@ -135,13 +135,13 @@ def local(
         ordered = sorted(jobs, key=lambda j: -j.expected)
         # jobs are begun in this order, the next whenever one has ended
         waiting = deque(j.id for j in ordered)
-        running = [waiting.popleft() for _ in ordered[: settings.jobs]]
-        now(running)
+        running = dict.fromkeys(waiting.popleft() for _ in ordered[: max(1, settings.jobs)])
+        now(list(running))
         for outcome in each(work, ordered, seconds=settings.seconds, memory=settings.memory, workers=settings.jobs):
-            running.remove(outcome.job.id)
+            running.pop(outcome.job.id, None)
             if waiting:
-                running.append(waiting.popleft())
-            now(running)
+                running[waiting.popleft()] = None
+            now(list(running))
             yield outcome.job.id, judged(outcome)
 
     return execute

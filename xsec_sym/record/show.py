@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import textwrap
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
@@ -31,7 +32,8 @@ MEANING = {
 MEASURED = "no symbolic proof and no enclosure, but two independent methods agree at every point tested"
 WIDTH = 100
 INDENT = 2
-COLOURS = {"misprint": "yellow", "claim-fails": "yellow", "refuted": "red", "inconclusive": "red", "timeout": "red"}
+UNSETTLED = ("refuted", "inconclusive", "timeout")
+COLOURS = {"misprint": "yellow", "claim-fails": "yellow", **dict.fromkeys(UNSETTLED, "red")}
 # How formulas stand: typeset over several lines, each in one line, or as LaTeX.
 FORMS = ("pretty", "line", "latex")
 # What puts a colour on a text, where there are colours.
@@ -92,11 +94,11 @@ def colour(verdict: str) -> str:
 
 
 def _formula(entry: Entry, name: str, form: str, wide: int) -> str:
-    try:
-        left, right = entry.side("left"), entry.side(name)
-    except (ValueError, KeyError, TypeError):
-        left = right = None
-    if form == "latex" or left is None or (right is None and getattr(entry, name) is not None):
+    left = right = None
+    if form != "latex":
+        with contextlib.suppress(ValueError, KeyError, TypeError):
+            left, right = entry.side("left"), entry.side(name)
+    if left is None or (right is None and getattr(entry, name) is not None):
         text = entry.latex(name)
     else:
         sides = [left] if right is None else [left, right]
