@@ -201,6 +201,13 @@ def test_the_scripts(shell):
     assert f"_XSEC_COMPLETE={shell}_complete" in script and "xsec" in script
 
 
+def test_how_to_switch_it_on_is_told_on_a_terminal():
+    assert on_a_terminal("completion", "fish").endswith(
+        "# to switch it on: xsec completion fish > ~/.config/fish/completions/xsec.fish\r\n"
+    )
+    assert "switch it on" not in piped("completion", "zsh").stdout + piped("completion", "zsh").stderr
+
+
 def test_bash_itself(tmp_path):
     (tmp_path / "xsec").write_text(f'#!/bin/sh\nexec "{sys.executable}" -m xsec_sym.cli "$@"\n')
     (tmp_path / "xsec").chmod(0o755)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -163,7 +164,7 @@ def show(names: tuple[str, ...], latex: bool, bibtex: bool, derivations: str | N
     form = "latex" if latex else "pretty" if terminal.typesets() else "line"
     wide = get_terminal_size().columns - text.INDENT
     told = {name: text.told(ledger[name], ledger, form, wide, terminal.paint) for name in names if name in ledger}
-    say("\n\n\n".join(told.get(name) or text.listed(ledger.source(name)) for name in names))
+    say("\n\n\n".join(told.get(name) or text.listed(ledger.source(name), terminal.paint) for name in names))
 
 
 @main.command(short_help="Check an equation of your own.")
@@ -234,9 +235,12 @@ def chart(
 
 
 def _measured(name: str, seed: int, jobs: int, cluster: str | None) -> dict[str, Any]:
+    from xsec_sym import processes
     from xsec_sym.record.cluster import spread
     from xsec_sym.study import files
 
+    if cluster is None:
+        processes.start(jobs)
     with spread(cluster), progress(count=files.steps(name)) as steps:
         return files.measured(name, seed, jobs, steps.next)
 
@@ -250,6 +254,7 @@ def export(names: tuple[str, ...], target: str | None, dtype: str) -> None:
     from importlib import import_module
 
     exporter = import_module("xsec_sym.export")
+    refusal = exporter.Refusal
     if not names:
         if target is not None:
             complain("name what to export; without a name there is only the list")
@@ -259,8 +264,8 @@ def export(names: tuple[str, ...], target: str | None, dtype: str) -> None:
     with output(None if target == "-" else target) as out, progress(count=len(names)) as steps:
         try:
             text = exporter.module(list(names), dtype, tick=steps.next)
-        except (exporter.Refusal, KeyError) as error:
-            complain(error if isinstance(error, exporter.Refusal) else str(error))
+        except (refusal, KeyError) as error:
+            complain(error if isinstance(error, refusal) else str(error))
         if out is not None:
             out.write(text)
     if out is None:
@@ -336,9 +341,12 @@ def report(target: str) -> None:
 @click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
 def completion(shell: str) -> None:
     """Print the script by which a shell completes commands, options, ids, names and sources."""
-    from xsec_sym import complete
+    from xsec_sym import complete, guide
 
     click.echo(complete.script(shell, main, terminal.COMPLETE), nl=False)
+    if sys.stdout.isatty():
+        line = next(line for line, _ in guide.EXAMPLES["completion"] if shell in line)
+        click.echo(f"# to switch it on: {line}", err=True)
 
 
 if __name__ == "__main__":

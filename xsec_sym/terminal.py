@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import os
 import signal
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import IO, Any, NoReturn, TextIO
 
@@ -49,12 +51,14 @@ class Program(click.Group):
             # a terminal that knows no Greek is told a question mark, and no traceback
             with contextlib.suppress(AttributeError, ValueError):
                 stream.reconfigure(errors="replace")  # type: ignore[union-attr]
+        _mind_exit()
         code: Any
         try:
             code = run(*args, standalone_mode=False, **extra)
         except Interrupted as left:
             # what is echoed as ^C stands on the line already
             click.echo(f"{chr(10) * sys.stderr.isatty()}xsec: {left.message}", err=True)
+            _EXIT.append(INTERRUPTED)
             code = INTERRUPTED
         except click.ClickException as mistake:
             click.echo(f"xsec: {one_line(_told(mistake))}", err=True)
@@ -65,7 +69,8 @@ class Program(click.Group):
 
     def invoke(self, context: click.Context) -> Any:
         try:
-            return super().invoke(context)
+            with _insisting():
+                return super().invoke(context)
         except KeyboardInterrupt:
             # who presses again would only disturb the tidying
             with contextlib.suppress(ValueError):
@@ -85,6 +90,51 @@ def _told(mistake: click.ClickException) -> str:
         near = f"; did you mean {' or '.join(mistake.possibilities)}?" if mistake.possibilities else ""
         return f"there is no option {mistake.option_name}{near}"
     return mistake.format_message()
+
+
+@contextlib.contextmanager
+def _insisting() -> Iterator[None]:
+    """A Ctrl-C that a library swallows while it is imported is raised again, as long as the work goes on."""
+
+    def press(*_: Any) -> None:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.2)
+        if not isinstance(sys.exc_info()[1], KeyboardInterrupt):
+            raise KeyboardInterrupt
+
+    try:
+        before = {s: signal.signal(s, press) for s in (signal.SIGINT, signal.SIGVTALRM)}
+    except (ValueError, AttributeError):  # another thread than the first, or a system without this timer
+        yield
+        return
+    tell = sys.unraisablehook
+    sys.unraisablehook = lambda lost: None if lost.exc_type is KeyboardInterrupt else tell(lost)
+    try:
+        yield
+    finally:
+        sys.unraisablehook = tell
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+_EXIT: list[int] = []
+
+
+@cache
+def _mind_exit() -> None:
+    # Python ends itself by the signal, whatever was asked, if the exception once went through an exec; being the first
+    # to be registered, this is done last
+    atexit.register(_last)
+
+
+def _last() -> None:
+    if _EXIT:
+        for stream in (sys.stdout, sys.stderr):
+            with contextlib.suppress(OSError, ValueError):
+                stream.flush()
+        os._exit(_EXIT[0])
+    # all is done and told, and its exit code stands
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _end_children() -> None:

@@ -192,7 +192,7 @@ def _measurements(scene: Scene, measure: bool, tick: Tick) -> tuple[dict[str, An
     data: dict[str, Any] = {}
     for name in dict.fromkeys(m.quantity.name for m in scene.materials):
         if measure:
-            data[name] = files.measured(name, tick=tick)
+            data[name] = files.measured(name, tick=lambda said, of=name: tick(f"{of}: {said}"))  # type: ignore[misc]
             continue
         try:
             data[name] = files.stored(name)

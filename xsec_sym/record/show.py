@@ -74,11 +74,11 @@ def told(
     return "\n\n".join(blocks)
 
 
-def listed(entries: Iterable[Entry]) -> str:
+def listed(entries: Iterable[Entry], paint: Paint = lambda text, colour: text) -> str:
     """A line on each entry."""
     found = list(entries)
     wide = max((len(e.id) for e in found), default=0)
-    return "\n".join(f"{e.id:<{wide}}  {e.verdict:<12}  {e.title}" for e in found)
+    return "\n".join(f"{e.id:<{wide}}  {paint(f'{e.verdict:<12}', colour(e.verdict))}  {e.title}" for e in found)
 
 
 def _head(entry: Entry, paint: Paint) -> str:

@@ -14,6 +14,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from xsec_sym import __version__
+from xsec_sym.processes import undisturbed
 from xsec_sym.record.entry import Entry
 from xsec_sym.record.files import layout
 from xsec_sym.record.show import MEANING
@@ -180,10 +181,11 @@ def charts(folder: Path, tick: Tick = lambda said: None) -> list[dict[str, Any]]
     if found:
         (folder / "charts").mkdir()
     pictures = [(name, stability) for name in found for stability in (False, True)]
-    drawing = Parallel(n_jobs=min(2, os.cpu_count() or 1, len(pictures) or 1), return_as="generator")(
-        delayed(_draw)(name, folder / "charts" / f"{name}{'-stability' * stability}.svg", stability)
-        for name, stability in pictures
-    )
+    with undisturbed():
+        drawing = Parallel(n_jobs=min(2, os.cpu_count() or 1, len(pictures) or 1), return_as="generator")(
+            delayed(_draw)(name, folder / "charts" / f"{name}{'-stability' * stability}.svg", stability)
+            for name, stability in pictures
+        )
     # they come in one by one and in order: what is told is the next
     for name, _ in pictures:
         tick(f"the charts of {name}")
