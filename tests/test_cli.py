@@ -44,7 +44,8 @@ def engine(monkeypatch):
 
 
 def run(*arguments):
-    return CliRunner().invoke(cli.main, [str(a) for a in arguments], catch_exceptions=False)
+    plain = {"FORCE_COLOR": None}
+    return CliRunner(env=plain).invoke(cli.main, [str(a) for a in arguments], catch_exceptions=False)
 
 
 def refused(result, *words):
@@ -326,7 +327,7 @@ def test_examples_name_what_there_is(line, monkeypatch):
     assert "scene" not in given or Path(given["scene"]).is_file()
 
 
-QUICK = [line for name in ("show", "check", "export") for line, _ in guide.EXAMPLES[name]]
+QUICK = [line for name in ("show", "check", "export") for line, _ in guide.EXAMPLES[name] if "--dtype" not in line]
 
 
 @pytest.mark.parametrize("line", [*QUICK, "xsec chart", "xsec chart sigma_ggx"])
