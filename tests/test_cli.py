@@ -1,18 +1,21 @@
 import json
 import os
-import signal
+import shlex
 import subprocess
 import sys
 import time
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 from click.testing import CliRunner
 
 from tests.record.conftest import certificate, stand_in_for_engine
-from xsec_sym import cli
+from xsec_sym import cli, guide, verifying
+from xsec_sym.export.recipes import RECIPES
 from xsec_sym.proof.verdict import Verdict
 from xsec_sym.record import Entry, Ledger, store
+from xsec_sym.study.method import HOMES
 
 MINE = """from sympy import Symbol
 from xsec_sym.proof import Source, interval
@@ -41,7 +44,8 @@ def engine(monkeypatch):
 
 
 def run(*arguments):
-    return CliRunner().invoke(cli.main, [str(a) for a in arguments], catch_exceptions=False)
+    plain = {"FORCE_COLOR": None}
+    return CliRunner(env=plain).invoke(cli.main, [str(a) for a in arguments], catch_exceptions=False)
 
 
 def refused(result, *words):
@@ -108,7 +112,7 @@ def test_what_no_derivation_claims_any_more(mine, engine, tmp_path):
 
 
 def test_the_project_s_own_must_be_in_the_record(mine, engine, tmp_path):
-    first = next(iter(cli._claims(None).values()))
+    first = next(iter(verifying.claims_of(None).values()))
     assert run("verify", first.id).exit_code == 1
     assert run("verify", first.id, "--record").exit_code == 0
     assert (tmp_path / "data" / f"{first.source}.json").exists()
@@ -134,16 +138,20 @@ def test_json(mine, engine, tmp_path):
         (["verify", "--digits", "ten"], ["--digits"]),
         (["verify", "--digits", "0"], ["--digits"]),
         (["verify", "--jobs", "0"], ["--jobs"]),
-        (["verify", "--frehs"], ["--frehs"]),
+        (["verify", "--frehs"], ["no option --frehs; did you mean --fresh?"]),
         (["verify", "--derivations", "/nowhere"], ["/nowhere is not a folder"]),
         (["verify", "--json", "/nowhere/out.json"], ["cannot write /nowhere/out.json"]),
         (["verify", "--json", "/"], ["cannot write /"]),
         (["verify", "--cluster", "tcp://127.0.0.1:1"], ["distributed"]),
         (["verify", "--cluster", "tcp://127.0.0.1:1", "--derivations", "/tmp"], ["--derivations cannot go"]),
-        (["show"], ["Missing argument"]),
+        (["show"], ["name at least one entry"]),
         (["show", "deon2016:twenty"], ["no entry deon2016:twenty"]),
-        (["show", "a", "b"], ["unexpected extra argument"]),
-        (["sohw"], ["No such command"]),
+        (["show", "--bibtex", "dupuy2061"], ["no entry dupuy2061; did you mean dupuy2016"]),
+        (["sohw"], ["no command sohw; did you mean show?"]),
+        (["xyzzy"], ["no command xyzzy; there are verify, show"]),
+        (["chart", "sigma_gxg"], ["no quantity sigma_gxg; did you mean sigma_ggx?"]),
+        (["chart", "sigma_ggx", "--stabilty"], ["no option --stabilty; did you mean --stability?"]),
+        (["completion", "bsh"], ["bash"]),
         (["check", "x"], ["Missing argument"]),
         (["check", "x", "x"], ["x has no range"]),
         (["check", "9**9**9", "1"], ["too large to write out"]),
@@ -164,6 +172,11 @@ def test_every_mistake_is_one_line(arguments, words, mine, monkeypatch):
     if "--cluster" in arguments:
         monkeypatch.setitem(sys.modules, "distributed", None)
     refused(run(*arguments), *words)
+
+
+def test_a_name_that_cannot_be_exported():
+    refused(run("export", "sigma_inv1pu"), "did you mean sigma_inv1pu2")
+    refused(run("export", "deon2016:4l"), "did you mean deon2016:4")
 
 
 def test_a_broken_derivation_is_one_line_and_no_file(mine, tmp_path):
@@ -188,11 +201,20 @@ def test_show(mine, engine, tmp_path):
                                ((0, "unfold"), (1, "close")))  # fmt: skip
     run("verify", "--source", "mine", "--derivations", mine, "--record")
     text = run("show", "mine:3", "--derivations", mine).stdout
-    said = ["mine:3  a misprint", "misprint: the form in print is refuted", "2⋅u = 3⋅u", "2⋅u = 2⋅u", "2 instead of 3"]
-    said += ["u in [0, 1]", "u = 1/3", "0.667", "1.000", "9 altered forms", "\n  unfold\n    close"]
+    said = ["mine:3  a misprint", "misprint: the form in print is refuted", "\n  2*u = 3*u\n", "\n  2*u = 2*u\n"]
+    said += ["2 instead of 3", "u in [0, 1]", "u = 1/3", "0.667", "1.000", "9 altered forms", "\n  unfold\n    close"]
     for words in said:
         assert words in text
     assert "mine:1  proved  power 1\n  mine:3  misprint" in run("show", "mine:4", "--derivations", mine).stdout
+
+    several = run("show", "mine:1", "mine:3", "--latex", "--derivations", mine).stdout
+    assert "\n\n\nmine:3  a misprint" in several and "\n  2 u = 3 u\n" in several
+    listed = run("show", "mine", "--derivations", mine).stdout.splitlines()
+    assert [line.split()[:2] for line in listed][2:] == [["mine:3", "misprint"], ["mine:4", "misprint"]]
+    cited = run("show", "--bibtex", "mine:3", "dupuy2016", "--derivations", mine).stdout
+    assert "@misc{xsec:mine:3," in cited and "Verdict: misprint (2 instead of 3)" in cited
+    assert "\n\n@inproceedings{dupuy2016," in cited
+    refused(run("show", "--bibtex", "mine", "--derivations", mine), "nothing is known of the source mine")
 
 
 def test_show_falls_back_on_latex(mine, tmp_path):
@@ -231,7 +253,7 @@ def exporter(monkeypatch):
     class Refusal(ValueError):
         pass
 
-    def module(names, dtype):
+    def module(names, dtype, tick):
         if "bad" in names:
             raise Refusal("bad is not verified:\nno export")
         return f"# {' '.join(names)} {dtype}\n"
@@ -276,22 +298,57 @@ def test_as_a_program(tmp_path):
     assert done.stderr == "" and "mine:1" in done.stdout
 
 
-def test_bare_call_explains_itself():
+def test_bare_call_says_what_to_do_next():
     result = run()
-    assert result.exit_code == 0 and "verify" in result.stdout
+    assert result.exit_code == 0 and result.stderr == ""
+    assert result.stdout.startswith(f"The record: {len(RECORD)} entries of {len(RECORD.sources)} sources; ")
+    unsettled = sum(not e.settled for e in RECORD.values())
+    assert f", {unsettled} not settled.\n" in result.stdout
+    for who in ("check a paper", "need a kernel", "add a paper", "plan a scene"):
+        assert f"\nYou {who}\n  xsec " in result.stdout
     assert run("--version").stdout.startswith("xsec 0.")
 
 
-def test_ctrl_c_leaves_quietly(tmp_path):
-    (tmp_path / "paper.py").write_text(MINE + "\nprint('here', flush=True)\nimport time\ntime.sleep(30)\n")
-    command = [sys.executable, "-m", "xsec_sym.cli", "verify", "--derivations", str(tmp_path)]
-    command += ["--json", str(tmp_path / "out.json")]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        assert process.stdout.readline() == "here\n"
-        process.send_signal(signal.SIGINT)
-        _, said = process.communicate(timeout=20)
-    assert process.returncode == 130 and "Traceback" not in said
-    assert [p for p in os.listdir(tmp_path) if "json" in p] == []
+# --- examples ----------------------------------------------------------------------------------------
+
+ROOT = Path(__file__).parent.parent
+RECORD = Ledger()
+LINES = [line for name in guide.EXAMPLES for line, _ in guide.EXAMPLES[name] if not line.startswith("eval")]
+NEXT = [line for _, *lines in guide.USERS for line, _ in lines if "FOLDER" not in line]
+
+
+def test_every_command_has_examples():
+    assert set(guide.EXAMPLES) == set(cli.main.commands)
+    for name, examples in guide.EXAMPLES.items():
+        said = run(name, "--help").stdout.partition("\nExamples:\n")[2]
+        for line, _ in examples:
+            assert f"  {line}  " in said or f"  {line}\n" in said
+            assert name in line
+
+
+@pytest.mark.parametrize("line", dict.fromkeys(LINES + NEXT))
+def test_examples_name_what_there_is(line, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    program, *words = shlex.split(line.partition(" > ")[0])
+    command = cli.main.commands.get(words[0] if words else "")
+    assert program == "xsec" and command is not None
+    given = command.make_context(command.name, words[1:]).params
+    names = [*given.get("ids", ()), *given.get("names", ()), *([given["name"]] if given.get("name") else [])]
+    known = {"chart": HOMES, "export": [*RECIPES, *RECORD]}.get(command.name, [*RECORD, *RECORD.sources])
+    assert set(names) <= set(known) and set(given.get("sources", ())) <= set(RECORD.sources)
+    assert "scene" not in given or Path(given["scene"]).is_file()
+
+
+QUICK = [line for name in ("show", "check", "export") for line, _ in guide.EXAMPLES[name] if "--dtype" not in line]
+
+
+@pytest.mark.parametrize("line", [*QUICK, "xsec chart", "xsec chart sigma_ggx"])
+def test_examples_that_are_quick_work(line, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    words = shlex.split(line)[1:]
+    result = run(*words)
+    assert result.stderr == "" and result.exit_code == (1 if "sqrt(x**2)" in words else 0)
+    assert result.stdout != "" or os.listdir(tmp_path) == [words[words.index("-o") + 1]]
 
 
 @pytest.mark.parametrize(
@@ -301,7 +358,8 @@ def test_ctrl_c_leaves_quietly(tmp_path):
         ("import xsec_sym.kernels", ["sympy", "mpmath", "matplotlib"]),
         ("from xsec_sym import cross_section, kernels", ["sympy", "mpmath"]),
         ("from xsec_sym import ledger; len(ledger)", ["matplotlib", "scipy"]),
-        ("import xsec_sym.cli", ["sympy", "numpy", "rich"]),
+        ("import xsec_sym.cli", ["sympy", "numpy", "rich", "json"]),
+        ("from xsec_sym import cli, guide; guide.told(cli._ledger(None))", ["sympy", "numpy", "rich"]),
         ("import xsec_sym.record.run", ["matplotlib", "scipy"]),
     ],
 )

@@ -4,17 +4,29 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any
 
 import click
 
+from xsec_sym import terminal
 from xsec_sym.scaffold import new
-from xsec_sym.terminal import Count, Program, complain, drawn, one_line, output, progress, saying
+from xsec_sym.terminal import Count, Program, complain, drawn, output, progress, say
 
 # Work is shared out to processes, whose small matrices threads would only slow down; to be set before NumPy is loaded.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+
+def _known(what: str) -> Callable[..., Any]:
+    """How a shell completes a word, by a function of `xsec_sym.complete`."""
+
+    def complete(context: click.Context, parameter: click.Parameter, word: str) -> Any:
+        from xsec_sym import complete
+
+        return getattr(complete, what)(context, word)
+
+    return complete
 
 
 def _ledger(derivations: str | None) -> Any:
@@ -33,17 +45,28 @@ def _ledger(derivations: str | None) -> Any:
 @click.version_option(package_name="xsec_sym", message="xsec %(version)s")
 @click.pass_context
 def main(context: click.Context) -> None:
-    """Derive, verify and export the formulas of rendering papers."""
+    """Derive, verify and export the formulas of rendering papers. Without a command: what to do next."""
     if context.invoked_subcommand is None:
-        click.echo(context.get_help())
+        from xsec_sym import guide
+
+        click.echo(guide.told(_ledger(None)))
 
 
-OWN = click.option("--derivations", metavar="PATH", help="Add a folder of derivation modules of your own.")
+FILE = click.Path()
+OWN = click.option("--derivations", metavar="PATH", shell_complete=_known("folders"),
+                   help="Add a folder of derivation modules of your own.")  # fmt: skip
 
 
 @main.command()
-@click.argument("ids", nargs=-1, metavar="[ID]...")
-@click.option("--source", "sources", multiple=True, metavar="KEY", help="Only this source; may be given again.")
+@click.argument("ids", nargs=-1, metavar="[ID]...", shell_complete=_known("ids"))
+@click.option(
+    "--source",
+    "sources",
+    multiple=True,
+    metavar="KEY",
+    shell_complete=_known("sources"),
+    help="Only this source; may be given again.",
+)
 @click.option("--digits", type=Count(10, 1000), default=30, show_default=True, help="Digits to agree on.")
 @click.option("--seed", type=Count(0), default=0, show_default=True, help="Seed of the points tested.")
 @click.option("--jobs", type=Count(1, 1024), help="Processes to use.  [default: one a core]")
@@ -51,7 +74,7 @@ OWN = click.option("--derivations", metavar="PATH", help="Add a folder of deriva
 @click.option("--fresh", is_flag=True, help="Derive everything again instead of replaying recorded proofs.")
 @click.option("--record", is_flag=True, help="Write the new verdicts as the recorded ones.")
 @OWN
-@click.option("--json", "target", metavar="FILE", help="Write the verdicts as JSON as well.")
+@click.option("--json", "target", type=FILE, metavar="FILE", help="Write the verdicts as JSON as well.")
 @click.pass_context
 def verify(
     context: click.Context,
@@ -70,19 +93,22 @@ def verify(
 
     Exit code 0 when every verdict is settled and is the recorded one, 1 when any differs or is not settled.
     """
-    with output(target) as out:
+    with output(target) as out, progress("reading the derivations") as steps:
+        from xsec_sym import verifying
         from xsec_sym.record import show
-        from xsec_sym.record.run import Settings, differences, to_record, verify_all
+        from xsec_sym.record.run import Settings, differences, to_record, verify_all, with_parts
 
         if cluster and derivations:
             complain("--derivations cannot go with --cluster: its machines do not have that folder")
-        claims = _claims(derivations)
+        claims = verifying.claims_of(derivations)
         ledger = _ledger(derivations)
-        chosen = _chosen(ids, sources, claims, ledger)
+        chosen = verifying.chosen_ids(ids, sources, claims, ledger)
         settings = Settings(digits, seed, fresh, jobs or os.cpu_count() or 1)
-        execute = _remote(cluster, settings) if cluster else None
-        with progress(len(chosen)) as tick:
-            results = verify_all(claims, chosen, ledger, settings, execute=execute, tick=tick)
+        execute = verifying.on_cluster(cluster, settings) if cluster else None
+        effort = verifying.efforts(with_parts(claims, chosen), ledger)
+        steps.expect(len(effort), sum(effort.values()))
+        results = verify_all(claims, chosen, ledger, settings, execute=execute, now=lambda names: steps.now(*names),
+                             tick=lambda name: steps.done(effort[name]))  # fmt: skip
         entries = [r.entry for r in results]
         restricted = set(sources) if sources else set() if ids else {e.source for e in ledger.values()}
         met = [e.id for e in ledger.values() if e.source in restricted]
@@ -91,11 +117,13 @@ def verify(
         own = {r.entry.id for r in results if not claims[r.entry.id].module.startswith("derivations")}
         faults = [said for said in found if said.partition(": ")[0] not in own - set(ledger)]
         if record:
-            _record(results, to_record(results, ledger), ledger, claims, [n for n in met if n not in claims], own)
+            verifying.keep(
+                results, to_record(results, ledger), ledger, claims, [n for n in met if n not in claims], own
+            )
             faults = []
         if out is not None:
-            _write_json(out, entries, digits)
-    _print_verdicts(entries)
+            verifying.write_json(out, entries, digits)
+    verifying.print_verdicts(entries)
     for said in [*show.summary(entries), *([] if record and not found else found)]:
         click.echo(said)
     if record:
@@ -103,96 +131,44 @@ def verify(
     context.exit(1 if faults or not all(e.settled for e in entries) else 0)
 
 
-def _claims(derivations: str | None) -> dict[str, Any]:
-    from xsec_sym.record.discover import BrokenDerivation, discover
+@main.command(short_help="What the record holds on equations, or on a source.")
+@click.argument("names", nargs=-1, metavar="[ID|SOURCE]...", shell_complete=_known("ids_and_sources"))
+@click.option("--latex", is_flag=True, help="The formulas as LaTeX.")
+@click.option(
+    "--bibtex", is_flag=True, help="BibTeX for the sources and the verdicts named; without a name, all sources."
+)
+@OWN
+def show(names: tuple[str, ...], latex: bool, bibtex: bool, derivations: str | None) -> None:
+    """Tell what the record holds on equations: their forms, verdict, evidence and steps; of a source, a line each.
 
-    try:
-        return discover(derivations)
-    except BrokenDerivation as error:
-        complain(error)
+    Formulas are typeset on a terminal that knows Unicode, and stand in one line elsewhere.
+    """
+    from shutil import get_terminal_size
 
-
-def _chosen(ids: Sequence[str], sources: Sequence[str], claims: dict[str, Any], ledger: Any) -> list[str]:
+    from xsec_sym.record import show as text
+    from xsec_sym.record.sources import SOURCES, bibtex_of
     from xsec_sym.record.store import nearest
 
-    known = list(dict.fromkeys(c.source for c in claims.values()))
-    for name in ids:
-        if name not in claims:
-            complain(f"there is no claim {name}{nearest(name, claims)}")
-    for key in sources:
-        if key not in known:
-            complain(f"there is no source {key}{nearest(key, known) or '; there are ' + ', '.join(known)}")
-    if not ids and not sources:
-        return list(claims)
-    return [name for name, c in claims.items() if name in ids or c.source in sources]
-
-
-def _remote(address: str, settings: Any) -> Any:
-    from xsec_sym.record.cluster import NoCluster, remote
-
-    try:
-        return remote(address, settings)
-    except NoCluster as error:
-        complain(error)
-
-
-def _record(results: Any, kept: Any, ledger: Any, claims: dict[str, Any], gone: list[str], own: set[str]) -> None:
-    """Claims of the user's own are recorded beside them, the project's in the package."""
-    from xsec_sym.record.store import Ledger
-
-    entries, certificates = kept
-    for folder, mine in [(ledger.folders[0], False), *((f, True) for f in ledger.folders[1:])]:
-        here = [e for e in entries if (e.id in own) == mine]
-        stored = Ledger(folder)
-        dropped = [name for name in gone if name in stored]
-        if here or dropped:
-            proofs = {e.id: certificates[e.id] for e in here}
-            try:
-                stored.write(here, proofs, order=claims, gone=dropped)
-            except OSError as error:
-                complain(f"cannot write the record in {folder}: {error.strerror or error}")
-
-
-def _write_json(out: TextIO, entries: list[Any], digits: int) -> None:
-    from xsec_sym import __version__
-    from xsec_sym.record.files import layout
-
-    data = {"version": __version__, "digits": digits, "entries": [e.public() for e in entries]}
-    out.write(layout(data) + "\n")
-
-
-def _print_verdicts(entries: list[Any]) -> None:
-    from xsec_sym.record import show
-
-    if sys.stdout.isatty():
-        from rich.console import Console
-
-        Console().print(show.table(entries))
-    else:
-        for line in show.lines(entries):
-            click.echo(line)
-    for entry in entries:
-        if not entry.settled and entry.note:
-            click.echo(f"{entry.id}: {one_line(entry.note)}")
-
-
-@main.command()
-@click.argument("name", metavar="ID")
-@OWN
-def show(name: str, derivations: str | None) -> None:
-    """Tell what the record holds on one equation: its forms, verdict, evidence and steps."""
-    from xsec_sym.record import show as text
-    from xsec_sym.record.store import UnknownEntry
-
     ledger = _ledger(derivations)
-    try:
-        entry = ledger[name]
-    except UnknownEntry as error:
-        complain(error)
-    click.echo(text.told(entry, ledger))
+    known = dict.fromkeys([*ledger, *ledger.sources, *(SOURCES if bibtex else ())])
+    if not names and not bibtex:
+        complain("name at least one entry, such as deon2016:18, or a source: " + ", ".join(ledger.sources))
+    for name in names:
+        if name not in known:
+            complain(f"there is no entry {name}{nearest(name, known)}")
+    if bibtex:
+        try:
+            click.echo("\n\n".join(bibtex_of(name, ledger) for name in names or SOURCES))
+        except KeyError as error:
+            complain(error.args[0])
+        return
+    form = "latex" if latex else "pretty" if terminal.typesets() else "line"
+    wide = get_terminal_size().columns - text.INDENT
+    told = {name: text.told(ledger[name], ledger, form, wide, terminal.paint) for name in names if name in ledger}
+    say("\n\n\n".join(told.get(name) or text.listed(ledger.source(name), terminal.paint) for name in names))
 
 
-@main.command()
+@main.command(short_help="Check an equation of your own.")
 @click.argument("lhs")
 @click.argument("rhs")
 @click.option("--where", default="", help='The domain, such as "u in (-1, 1), n in {0, 1, 2}, u*n > 0".')
@@ -213,13 +189,15 @@ def check(context: click.Context, lhs: str, rhs: str, where: str, digits: int, s
         verdict = judge(lhs, rhs, where, digits, seconds)
     except (ParseError, EmptyDomain) as error:
         complain(error)
-    click.echo(answer(verdict))
+    say(answer(verdict, terminal.paint))
     context.exit(0 if verdict.settled else 1 if verdict.verdict == "refuted" else 3)
 
 
-@main.command()
-@click.argument("name", metavar="[NAME]", required=False)
-@click.option("-o", "target", metavar="FILE", help="An .svg, .png or .json file.  [default: a table on the terminal]")
+@main.command(short_help="Speed against accuracy of a quantity's methods.")
+@click.argument("name", metavar="[NAME]", required=False, shell_complete=_known("quantities"))
+@click.option(
+    "-o", "target", type=FILE, metavar="FILE", help="An .svg, .png or .json file.  [default: a table on the terminal]"
+)
 @click.option("--stability", is_flag=True, help="The map of lost digits over the domain instead.")
 @click.option("--measure", is_flag=True, help="Measure anew on this machine instead of drawing what is stored.")
 @click.option("--seed", type=Count(0), default=1, show_default=True, help="Seed of the points that are measured.")
@@ -258,16 +236,19 @@ def chart(
 
 
 def _measured(name: str, seed: int, jobs: int, cluster: str | None) -> dict[str, Any]:
+    from xsec_sym import processes
     from xsec_sym.record.cluster import spread
     from xsec_sym.study import files
 
-    with spread(cluster), progress(files.variants(name)) as tick:
-        return files.measured(name, seed, jobs, tick)
+    if cluster is None:
+        processes.start(jobs)
+    with spread(cluster), progress(count=files.steps(name)) as steps:
+        return files.measured(name, seed, jobs, steps.next)
 
 
-@main.command()
-@click.argument("names", nargs=-1, metavar="[NAME]...")
-@click.option("-o", "target", metavar="FILE", help="The module to write.  [default: standard output]")
+@main.command(short_help="Write verified expressions as a module of NumPy.")
+@click.argument("names", nargs=-1, metavar="[NAME]...", shell_complete=_known("exports"))
+@click.option("-o", "target", type=FILE, metavar="FILE", help="The module to write.  [default: standard output]")
 @click.option("--dtype", type=click.Choice(["float32", "float64"]), default="float64", show_default=True)
 @OWN
 def export(names: tuple[str, ...], target: str | None, dtype: str, derivations: str | None) -> None:
@@ -275,18 +256,19 @@ def export(names: tuple[str, ...], target: str | None, dtype: str, derivations: 
     from importlib import import_module
 
     exporter = import_module("xsec_sym.export")
+    refusal = exporter.Refusal
     if not names:
         if target is not None:
             complain("name what to export; without a name there is only the list")
         for line in _exportable(exporter, derivations):
             click.echo(line)
         return
-    with output(None if target == "-" else target) as out:
+    with output(None if target == "-" else target) as out, progress(count=len(names)) as steps:
         try:
             own = {"record": _ledger(derivations)} if derivations else {}
-            text = exporter.module(list(names), dtype, **own)
-        except (exporter.Refusal, KeyError) as error:
-            complain(error if isinstance(error, exporter.Refusal) else str(error))
+            text = exporter.module(list(names), dtype, tick=steps.next, **own)
+        except (refusal, KeyError) as error:
+            complain(error if isinstance(error, refusal) else str(error))
         if out is not None:
             out.write(text)
     if out is None:
@@ -297,20 +279,25 @@ def _exportable(exporter: Any, derivations: str | None) -> list[str]:
     return [str(name) for name in (exporter.names(_ledger(derivations)) if derivations else exporter.names())]
 
 
-@main.command()
-@click.argument("scene", metavar="SCENE.toml")
-@click.option("-o", "target", metavar="FILE", help="The module to write, with a function for each material.")
-@click.option("--json", "report", metavar="FILE", help="Write the choices, and what was turned down, as JSON.")
+@main.command(short_help="Choose the cheapest kernels for a scene.")
+@click.argument("scene", type=FILE, metavar="SCENE.toml")
+@click.option("-o", "target", type=FILE, metavar="FILE", help="The module to write, with a function for each material.")
+@click.option(
+    "--json", "report", type=FILE, metavar="FILE", help="Write the choices, and what was turned down, as JSON."
+)
 @click.option("--measure", is_flag=True, help="Measure on this machine first, which takes minutes a quantity.")
 def plan(scene: str, target: str | None, report: str | None, measure: bool) -> None:
     """Choose the cheapest kernels that keep to a scene's tolerances, write them as one module, and check it."""
-    from xsec_sym.planner import BadScene, Unmet
+    from xsec_sym.planner import BadScene, Scene, Unmet
     from xsec_sym.planner import plan as planned
+    from xsec_sym.planner.planning import steps as expected
     from xsec_sym.record.files import layout
 
-    with output(target) as out, output(report) as told, saying() as tick:
+    with output(target) as out, output(report) as told, progress() as steps:
         try:
-            found = planned(scene, measure=measure, tick=tick)
+            asked = Scene.load(scene)
+            steps.expect(expected(asked, measure))
+            found = planned(asked, measure=measure, tick=steps.next)
         except (BadScene, Unmet) as error:
             complain(error)
         if out is not None:
@@ -322,7 +309,15 @@ def plan(scene: str, target: str | None, report: str | None, measure: bool) -> N
 
 
 @main.command()
-@click.option("-o", "target", metavar="DIR", default="report", show_default=True, help="The folder to write.")
+@click.option(
+    "-o",
+    "target",
+    metavar="DIR",
+    default="report",
+    shell_complete=_known("folders"),
+    show_default=True,
+    help="The folder to write.",
+)
 @OWN
 def report(target: str, derivations: str | None) -> None:
     """Write the whole record as a static page that is read offline.
@@ -332,11 +327,12 @@ def report(target: str, derivations: str | None) -> None:
     from time import perf_counter
 
     from xsec_sym.report import NotAReport, build
+    from xsec_sym.report.site import steps as expected
 
-    start = perf_counter()
-    with saying() as tick:
+    start, ledger = perf_counter(), _ledger(derivations)
+    with progress(count=expected(ledger)) as steps:
         try:
-            index = build(target, _ledger(derivations), tick)
+            index = build(target, ledger, steps.next)
         except NotAReport as error:
             complain(error)
         except OSError as error:
@@ -345,7 +341,20 @@ def report(target: str, derivations: str | None) -> None:
     click.echo(f"written in {perf_counter() - start:.0f} s", err=True)
 
 
+@main.command(short_help="Print the script that completes in your shell.")
+@click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
+def completion(shell: str) -> None:
+    """Print the script by which a shell completes commands, options, ids, names and sources."""
+    from xsec_sym import complete, guide
+
+    click.echo(complete.script(shell, main, terminal.COMPLETE), nl=False)
+    if sys.stdout.isatty():
+        line = next(line for line, _ in guide.EXAMPLES["completion"] if shell in line)
+        click.echo(f"# to switch it on: {line}", err=True)
+
+
 main.command()(new)
+
 
 if __name__ == "__main__":
     main()

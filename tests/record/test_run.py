@@ -33,9 +33,13 @@ def words(results):
 def test_a_whole_brings_its_parts_and_carries_the_worst(claims, ledger, engine):
     engine[TWO] = Verdict("confirmed", digits=30)
     seen = []
-    results = verify_all(claims, [BOTH], ledger, Settings(), tick=seen.append)
+    running = []
+    results = verify_all(claims, [BOTH], ledger, Settings(), tick=seen.append, now=running.append)
+    assert running == [[ONE], [TWO], []]
     assert words(results) == {ONE: "proved", TWO: "confirmed", BOTH: "confirmed"}
     assert sorted(seen) == [ONE, TWO, BOTH]
+    verify_all(claims, [ONE, TWO, THREE], ledger, Settings(jobs=2), now=running.append)
+    assert [len(ids) for ids in running[3:]] == [2, 2, 1, 0] and set(running[3]) == {ONE, TWO}
 
 
 def test_replay_where_nothing_changed_and_anew_where_something_did(claims, ledger, engine):

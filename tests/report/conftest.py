@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from xsec_sym.record import ledger
 from xsec_sym.report import build
+from xsec_sym.report.site import steps
 from xsec_sym.study import method
 
 
@@ -35,5 +37,7 @@ def few_charts():
 def site(tmp_path_factory):
     folder = tmp_path_factory.mktemp("site") / "report"
     with few_charts():
-        build(folder)
+        told = []
+        build(folder, tick=told.append)
+        assert len(told) == steps(ledger)
     return Site(folder)

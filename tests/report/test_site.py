@@ -301,7 +301,7 @@ def test_a_failure_leaves_the_old_report(tmp_path, monkeypatch):
     target = tmp_path / "report"
     target.mkdir()
     (target / module.MARK).write_text("old")
-    monkeypatch.setattr(module, "charts", lambda folder: 1 / 0)
+    monkeypatch.setattr(module, "charts", lambda folder, tick: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         build(target)
     assert [p.name for p in target.iterdir()] == [module.MARK] and [p.name for p in tmp_path.iterdir()] == ["report"]
@@ -310,7 +310,7 @@ def test_a_failure_leaves_the_old_report(tmp_path, monkeypatch):
 def test_the_command_says_where_the_page_is(tmp_path, monkeypatch):
     from xsec_sym.report import site as module
 
-    monkeypatch.setattr(module, "charts", lambda folder: [])
+    monkeypatch.setattr(module, "charts", lambda folder, tick: [])
     monkeypatch.setattr(module, "codes", lambda record: {})
     monkeypatch.chdir(tmp_path)
     said = CliRunner().invoke(cli.main, ["report"])

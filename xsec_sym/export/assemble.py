@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import re
 import textwrap
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -238,11 +238,17 @@ def function_name(name: str) -> str:
     return word if word[:1].isalpha() else f"f_{word}"
 
 
-def module(wanted: Iterable[str], dtype: str | None = "float64", record: Record | None = None) -> str:
+def module(
+    wanted: Iterable[str],
+    dtype: str | None = "float64",
+    record: Record | None = None,
+    tick: Callable[[str], None] = lambda name: None,
+) -> str:
     """One self-contained module with the functions asked for: names of `available`, or ids of the record.
 
     "float64" computes in double and, as the kernels do, answers float32 for float32; "float32" answers float32 whatever
-    the arguments are. Raises `Refusal` for what is unknown, not verified, or no closed form of real variables.
+    the arguments are. ``tick`` is called with each name as it is begun. Raises `Refusal` for what is unknown, not
+    verified, or no closed form of real variables.
 
     >>> print(module(["sigma_inv1pi"]))
     Traceback (most recent call last):
@@ -260,6 +266,7 @@ def module(wanted: Iterable[str], dtype: str | None = "float64", record: Record 
     told: dict[str, str] = {}
     try:
         for name in dict.fromkeys(cells.get(name, name) for name in wanted):
+            tick(name)
             if name in RECIPES:
                 recipe = RECIPES[name]
                 basis = _verified(recipe, record)

@@ -208,13 +208,23 @@ def _measurements(scene: Scene, measure: bool, tick: Tick) -> tuple[dict[str, An
     data: dict[str, Any] = {}
     for name in dict.fromkeys(m.quantity.name for m in scene.materials):
         if measure:
-            data[name] = files.measured(name, tick=tick)
+            data[name] = files.measured(name, tick=lambda said, of=name: tick(f"{of}: {said}"))  # type: ignore[misc]
             continue
         try:
             data[name] = files.stored(name)
         except files.Unmeasured as error:
             raise BadScene(str(error)) from None
+    if measure:
+        tick("tables")
     return data, tables.measured() if measure else None
+
+
+def steps(scene: Scene, measure: bool) -> int:
+    """How often `plan` says what it begins."""
+    from xsec_sym.study import files
+
+    quantities = {m.quantity.name for m in scene.materials} if measure else set()
+    return len(scene.materials) + measure + sum(map(files.steps, quantities))
 
 
 def _chosen(

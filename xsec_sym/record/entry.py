@@ -153,6 +153,17 @@ class Entry:
         right = getattr(self, side)
         return self.left if right is None else f"{self.left} = {right}"
 
+    def bibtex(self) -> str:
+        """A BibTeX entry by which this verdict can be cited; `xsec_sym.record.sources.bibtex` has those of the sources.
+
+        >>> from xsec_sym.record.store import Ledger
+        >>> print(Ledger()["deon2016:9"].bibtex().splitlines()[0])
+        @misc{xsec:deon2016:9,
+        """
+        from xsec_sym.record.sources import cite
+
+        return cite(self)
+
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex('printed' if self.corrected is None else 'corrected')}$"
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -56,10 +57,12 @@ def verify_all(
     *,
     execute: Execute | None = None,
     tick: Callable[[str], None] = lambda name: None,
+    now: Callable[[list[str]], None] = lambda names: None,
 ) -> list[Result]:
     """A result for every chosen claim, and for the parts of chosen wholes, in the order of the claims.
 
-    ``tick`` is called with an id whenever a verdict comes in.
+    ``tick`` is called with an id whenever a verdict comes in, ``now`` with the ids in work whenever these change,
+    if they are on this machine.
     """
     wanted = with_parts(claims, chosen)
     keys = Keys(claims)
@@ -75,7 +78,7 @@ def verify_all(
             # the longest are started first, and of what is new nothing is known
             jobs.append(Job(name, ANEW, None, ledger[name].seconds if name in ledger else SECONDS))
     earned: dict[str, Verdict] = {}
-    for name, verdict in (execute or local(claims, settings))(jobs):
+    for name, verdict in (execute or local(claims, settings, now))(jobs):
         earned[name] = verdict
         tick(name)
     # a replay need not hand back the certificate that it was given
@@ -112,7 +115,9 @@ def with_parts(claims: Mapping[str, Claim], chosen: Iterable[str]) -> list[str]:
     return [name for name in claims if name in found]
 
 
-def local(claims: Mapping[str, Claim], settings: Settings) -> Execute:
+def local(
+    claims: Mapping[str, Claim], settings: Settings, now: Callable[[list[str]], None] = lambda names: None
+) -> Execute:
     """Carry out jobs in processes on this machine, each job within the limits."""
     from xsec_sym.proof import verify
 
@@ -128,7 +133,15 @@ def local(claims: Mapping[str, Claim], settings: Settings) -> Execute:
 
     def execute(jobs: list[Job]) -> Iterator[tuple[str, Verdict]]:
         ordered = sorted(jobs, key=lambda j: -j.expected)
+        # jobs are begun in this order, the next whenever one has ended
+        waiting = deque(j.id for j in ordered)
+        running = dict.fromkeys(waiting.popleft() for _ in ordered[: max(1, settings.jobs)])
+        now(list(running))
         for outcome in each(work, ordered, seconds=settings.seconds, memory=settings.memory, workers=settings.jobs):
+            running.pop(outcome.job.id, None)
+            if waiting:
+                running[waiting.popleft()] = None
+            now(list(running))
             yield outcome.job.id, judged(outcome)
 
     return execute

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import textwrap
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from xsec_sym.record.entry import Entry
 
 if TYPE_CHECKING:
     from rich.table import Table
+    from sympy import Expr
 
     from xsec_sym.proof.verdict import Verdict
 
@@ -29,13 +31,26 @@ MEANING = {
 }
 MEASURED = "no symbolic proof and no enclosure, but two independent methods agree at every point tested"
 WIDTH = 100
+INDENT = 2
+UNSETTLED = ("refuted", "inconclusive", "timeout")
+COLOURS = {"misprint": "yellow", "claim-fails": "yellow", **dict.fromkeys(UNSETTLED, "red")}
+# How formulas stand: typeset over several lines, each in one line, or as LaTeX.
+FORMS = ("pretty", "line", "latex")
+# What puts a colour on a text, where there are colours.
+Paint = Callable[[str, str], str]
 
 
-def told(entry: Entry, ledger: Mapping[str, Entry]) -> str:
-    """The entry as text."""
-    blocks = [_head(entry)]
+def told(
+    entry: Entry,
+    ledger: Mapping[str, Entry],
+    form: str = "pretty",
+    wide: int = WIDTH,
+    paint: Paint = lambda text, colour: text,
+) -> str:
+    """The entry as text, its formulas in one of the `FORMS` and typeset no wider than so many columns."""
+    blocks = [_head(entry, paint)]
     blocks += [
-        _formula(entry, name)
+        _formula(entry, name, form, wide)
         for name in ("printed", "corrected")
         if getattr(entry, name) is not None or (name == "printed" and entry.left and entry.corrected is None)
     ]
@@ -59,38 +74,50 @@ def told(entry: Entry, ledger: Mapping[str, Entry]) -> str:
     return "\n\n".join(blocks)
 
 
-def _head(entry: Entry) -> str:
+def listed(entries: Iterable[Entry], paint: Paint = lambda text, colour: text) -> str:
+    """A line on each entry."""
+    found = list(entries)
+    wide = max((len(e.id) for e in found), default=0)
+    return "\n".join(f"{e.id:<{wide}}  {paint(f'{e.verdict:<12}', colour(e.verdict))}  {e.title}" for e in found)
+
+
+def _head(entry: Entry, paint: Paint) -> str:
     place = f"section {entry.section}" if entry.section else ""
     head = f"{entry.id}  {entry.title}" + (f"  ({entry.source}, {place})" if place else "")
     word = entry.verdict + (f" to {entry.digits} digits" if entry.verdict == "confirmed" and entry.digits else "")
     solved = entry.verdict == "confirmed" and "digits agreed on" in entry.evidence
-    return f"{head}\n{word}: {MEASURED if solved else MEANING[entry.verdict]}"
+    return f"{head}\n{paint(word, colour(entry.verdict))}: {MEASURED if solved else MEANING[entry.verdict]}"
 
 
-def _formula(entry: Entry, name: str) -> str:
+def colour(verdict: str) -> str:
+    return COLOURS.get(verdict, "green")
+
+
+def _formula(entry: Entry, name: str, form: str, wide: int) -> str:
+    left = right = None
+    if form != "latex":
+        with contextlib.suppress(ValueError, KeyError, TypeError):
+            left, right = entry.side("left"), entry.side(name)
+    if left is None or (right is None and getattr(entry, name) is not None):
+        text = entry.latex(name)
+    else:
+        sides = [left] if right is None else [left, right]
+        text = (form == "pretty" and _typeset(sides, wide)) or " = ".join(map(str, sides))
+        if form == "pretty" and "\n" not in text:
+            # a formula wider than the page is easier to read in one line than torn into stacks
+            text = textwrap.fill(text, wide, break_long_words=False, break_on_hyphens=False)
+    return f"{name}\n{textwrap.indent(text, ' ' * INDENT)}"
+
+
+def _typeset(sides: list[Expr], wide: int) -> str:
+    """Side by side where that fits, one below the other where not; nothing if even so it is too wide."""
     from sympy import pretty
 
-    try:
-        left, right = entry.side("left"), entry.side(name)
-    except (ValueError, KeyError, TypeError):
-        left = right = None
-    if left is None or (right is None and getattr(entry, name) is not None):
-        return f"{name}\n{textwrap.indent(entry.latex(name), '  ')}"
-    # side by side where that fits, one below the other where not
-    text = pretty(left, use_unicode=True, num_columns=10_000)
-    if right is not None:
-        shown = pretty(right, use_unicode=True, num_columns=10_000)
-        beside = _beside(text, shown)
-        fits = max(map(len, beside.splitlines())) <= WIDTH
-        text = beside if fits else f"{text}\n=\n{_fitting(entry, name, shown)}"
-    return f"{name}\n{textwrap.indent(text, '  ')}"
-
-
-def _fitting(entry: Entry, name: str, shown: str) -> str:
-    if max(map(len, shown.splitlines())) <= WIDTH:
-        return shown
-    # a formula wider than the page is easier to read in one line than torn into stacks
-    return textwrap.fill(str(entry.side(name)), WIDTH, break_long_words=False, break_on_hyphens=False)
+    shown = [pretty(side, use_unicode=True, num_columns=10_000) for side in sides]
+    for text in (_beside(*shown) if len(shown) == 2 else shown[0], "\n=\n".join(shown)):
+        if max(map(len, text.splitlines())) <= wide:
+            return text
+    return ""
 
 
 def _beside(left: str, right: str) -> str:
@@ -148,13 +175,13 @@ def _step(depth: int, said: str) -> str:
 # --- verdicts ------------------------------------------------------------------------------------------
 
 
-def answer(verdict: Verdict) -> str:
+def answer(verdict: Verdict, paint: Paint = lambda text, colour: text) -> str:
     """The verdict on a user's own equation."""
     word = verdict.verdict + (
         f" to {verdict.digits} digits" if verdict.verdict == "confirmed" and verdict.digits else ""
     )
     meaning = "the two sides differ" if verdict.verdict == "refuted" else MEANING[verdict.verdict]
-    lines = [f"{word}: {meaning}"]
+    lines = [f"{paint(word, colour(verdict.verdict))}: {meaning}"]
     if verdict.witness:
         lines.append(_witness(verdict.witness))
     if verdict.note:
@@ -186,9 +213,8 @@ def table(entries: Iterable[Entry]) -> Table:
         made.add_column(name, no_wrap=True)
     for name in ("digits", "mutants", "seconds"):
         made.add_column(name, justify="right")
-    colours = {"misprint": "yellow", "claim-fails": "yellow", "refuted": "red", "inconclusive": "red", "timeout": "red"}
     for row in rows(entries):
-        made.add_row(row[0], f"[{colours.get(row[1], 'green')}]{row[1]}[/]", *row[2:])
+        made.add_row(row[0], f"[{colour(row[1])}]{row[1]}[/]", *row[2:])
     return made
 
 

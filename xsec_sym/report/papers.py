@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from xsec_sym.record.entry import Entry
+from xsec_sym.record.sources import SOURCES
 
 ROWS = {
     "1": "1", "u": "x", "u2": "x^{2}", "u4": "x^{4}",
@@ -50,18 +51,7 @@ class Paper:
         return self.key.replace("_", " ")
 
 
-PAPERS = {
-    p.key: p
-    for p in (
-        Paper("deon2016", "The anisotropic cross-section for the spherical Gaussian medium", "E. d’Eon"),
-        Paper("dupuy2016", "Additional Progress Towards the Unification of Microfacet and Microflake Theories",
-              "J. Dupuy, E. Heitz, E. d’Eon"),
-        Paper("deon2021", "An analytic BRDF for materials with spherical Lambertian scatterers", "E. d’Eon"),
-        Paper("tokuyoshi_harada", "Derivation of a Squared Ellipsoidal Lobe Function", "Y. Tokuyoshi, T. Harada"),
-        Paper("kenha2018", "A distribution of normals from the shape of a mirror of revolution"),
-        Paper("xsec", "Results of this project", own=True),
-    )
-}  # fmt: skip
+PAPERS = {p.key: Paper(p.key, p.about or p.title, p.short, p.own) for p in SOURCES.values()}
 
 
 def papers(record: Mapping[str, Entry]) -> list[Paper]:

@@ -14,6 +14,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from xsec_sym import __version__
+from xsec_sym.processes import undisturbed
 from xsec_sym.record.entry import Entry
 from xsec_sym.record.files import layout
 from xsec_sym.record.show import MEANING
@@ -79,8 +80,7 @@ def pages(record: Any, folder: Path, tick: Tick = lambda said: None) -> Iterator
     tick("code")
     found = items(record, codes(record))
     sources = papers(record)
-    tick("charts")
-    drawn = charts(folder)
+    drawn = charts(folder, tick)
     table = rows(record, found) if any(name.startswith(TABLE) for name in record) else []
     inside = Environment(
         loader=PackageLoader("xsec_sym.report"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
@@ -154,24 +154,43 @@ def _search(found: dict[str, Item]) -> str:
     return f'"use strict";\nwindow.RECORD = [\n{lines}\n];\n'
 
 
-def charts(folder: Path) -> list[dict[str, Any]]:
-    """Draw what has a stored measurement, on two cores: each picture takes about a second."""
-    from joblib import Parallel, delayed
+def steps(record: Any) -> int:
+    """How often `build` says what it begins."""
+    return 2 + 2 * len(_stored()) + len(papers(record))
 
+
+def _stored() -> dict[str, Any]:
+    """The measurements that can be drawn."""
     from xsec_sym.study import files
-    from xsec_sym.study.method import HOMES, registered
+    from xsec_sym.study.method import HOMES
 
     found = {}
     for name in HOMES:
         with contextlib.suppress(files.Unmeasured):
             found[name] = files.stored(name)
+    return found
+
+
+def charts(folder: Path, tick: Tick = lambda said: None) -> list[dict[str, Any]]:
+    """Draw what has a stored measurement, on two cores: each picture takes about a second."""
+    from joblib import Parallel, delayed
+
+    from xsec_sym.study import files
+    from xsec_sym.study.method import registered
+
+    found = _stored()
     if found:
         (folder / "charts").mkdir()
     pictures = [(name, stability) for name in found for stability in (False, True)]
-    Parallel(n_jobs=min(2, os.cpu_count() or 1, len(pictures) or 1))(
-        delayed(_draw)(name, folder / "charts" / f"{name}{'-stability' * stability}.svg", stability)
-        for name, stability in pictures
-    )
+    with undisturbed():
+        drawing = Parallel(n_jobs=min(2, os.cpu_count() or 1, len(pictures) or 1), return_as="generator")(
+            delayed(_draw)(name, folder / "charts" / f"{name}{'-stability' * stability}.svg", stability)
+            for name, stability in pictures
+        )
+    # they come in one by one and in order: what is told is the next
+    for name, _ in pictures:
+        tick(f"the charts of {name}")
+        next(drawing)
     return [
         {
             "name": name,

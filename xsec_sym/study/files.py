@@ -30,9 +30,11 @@ def known(name: str) -> None:
     registered(name)
 
 
-def variants(name: str) -> int:
-    """How many methods, parameters and dtypes there are to measure."""
-    return sum(2 if method.single else 1 for method, _ in registered(name).variants())
+def steps(name: str) -> int:
+    """How often a measurement says what it begins."""
+    from xsec_sym.study import measure
+
+    return measure.steps(name)
 
 
 def stored(name: str) -> dict[str, Any]:

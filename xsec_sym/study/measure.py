@@ -21,14 +21,19 @@ Tick = Callable[[str], None]
 
 
 def measure(name: str, seed: int = 1, jobs: int = 1, tick: Tick = lambda said: None, only: Iterable[str] = ()) -> dict:
-    """Errors and times of every method of the quantity that can run here; of those named, if any are."""
+    """Errors and times of every method of the quantity that can run here; of those named, if any are.
+
+    ``tick`` is called with what is begun; `steps` tells how often.
+    """
     field = registered(name)
     chosen = set(only)
     unknown = chosen - {m.name for m in field.methods}
     if unknown:
         raise KeyError(f"{name} has no method {', '.join(sorted(unknown))}")
-    tried = {dtype: _points(field.quantity, dtype, seed, jobs) for dtype in DTYPES}
+    tried = {dtype: _points(field.quantity, dtype, seed, jobs, tick) for dtype in DTYPES}
+    tick("how far rounded arguments change the value")
     cond = _conditioned(field.quantity, tried["float64"][0], seed, jobs)
+    tick("the machine")
     yardsticks = {n: clock.yardsticks(n) for n in clock.SIZES}
     rows: list[dict[str, Any]] = []
     for method, parameters in field.variants():
@@ -57,6 +62,17 @@ def measure(name: str, seed: int = 1, jobs: int = 1, tick: Tick = lambda said: N
     return data
 
 
+def steps(name: str) -> int:
+    """How often `measure` says what it begins."""
+    field = registered(name)
+    return len(DTYPES) * (1 + len(field.quantity.trouble)) + 2 + variants(name)
+
+
+def variants(name: str) -> int:
+    """How many methods, parameters and dtypes there are to measure."""
+    return sum(2 if method.single else 1 for method, _ in registered(name).variants())
+
+
 def label(parameters: Mapping[str, Any]) -> str:
     """
     >>> label({"n": 4, "tol": 1e-07})
@@ -67,10 +83,12 @@ def label(parameters: Mapping[str, Any]) -> str:
     )
 
 
-def _points(quantity: Quantity, dtype: str, seed: int, jobs: int) -> list[Points]:
+def _points(quantity: Quantity, dtype: str, seed: int, jobs: int, tick: Tick) -> list[Points]:
     rng = np.random.default_rng([seed, DTYPES.index(dtype)])
+    tick(f"references, {BULK}, {dtype}")
     found = [right(quantity, BULK, bulk(quantity, rng), dtype, jobs)]
     for name, draw in quantity.trouble.items():
+        tick(f"references, {name}, {dtype}")
         found.append(right(quantity, name, draw(rng, TROUBLE), dtype, jobs))
     return found
 

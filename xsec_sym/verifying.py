@@ -1,0 +1,88 @@
+"""What `xsec verify` does beside verifying: which claims are meant, and where the verdicts go."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import Any, TextIO
+
+from xsec_sym.terminal import coloured, complain, nearest_or_all, one_line, say
+
+
+def efforts(names: Sequence[str], ledger: Any) -> dict[str, float]:
+    """What share of the time an entry is expected to take: by its seconds in the record."""
+    return {name: 0.1 + (ledger[name].seconds if name in ledger else 5.0) for name in names}
+
+
+def claims_of(derivations: str | None) -> dict[str, Any]:
+    from xsec_sym.record.discover import BrokenDerivation, discover
+
+    try:
+        return discover(derivations)
+    except BrokenDerivation as error:
+        complain(error)
+
+
+def chosen_ids(ids: Sequence[str], sources: Sequence[str], claims: dict[str, Any], ledger: Any) -> list[str]:
+    from xsec_sym.record.store import nearest
+
+    known = list(dict.fromkeys(c.source for c in claims.values()))
+    for name in ids:
+        if name not in claims:
+            complain(f"there is no claim {name}{nearest(name, claims)}")
+    for key in sources:
+        if key not in known:
+            complain(f"there is no source {key}{nearest_or_all(key, known)}")
+    if not ids and not sources:
+        return list(claims)
+    return [name for name, c in claims.items() if name in ids or c.source in sources]
+
+
+def on_cluster(address: str, settings: Any) -> Any:
+    from xsec_sym.record.cluster import NoCluster, remote
+
+    try:
+        return remote(address, settings)
+    except NoCluster as error:
+        complain(error)
+
+
+def keep(results: Any, kept: Any, ledger: Any, claims: dict[str, Any], gone: list[str], own: set[str]) -> None:
+    """Claims of the user's own are recorded beside them, the project's in the package."""
+    from xsec_sym.record.store import Ledger
+
+    entries, certificates = kept
+    for folder, mine in [(ledger.folders[0], False), *((f, True) for f in ledger.folders[1:])]:
+        here = [e for e in entries if (e.id in own) == mine]
+        stored = Ledger(folder)
+        dropped = [name for name in gone if name in stored]
+        if here or dropped:
+            proofs = {e.id: certificates[e.id] for e in here}
+            try:
+                stored.write(here, proofs, order=claims, gone=dropped)
+            except OSError as error:
+                complain(f"cannot write the record in {folder}: {error.strerror or error}")
+
+
+def write_json(out: TextIO, entries: list[Any], digits: int) -> None:
+    from xsec_sym import __version__
+    from xsec_sym.record.files import layout
+
+    data = {"version": __version__, "digits": digits, "entries": [e.public() for e in entries]}
+    out.write(layout(data) + "\n")
+
+
+def print_verdicts(entries: list[Any]) -> None:
+    from xsec_sym.record import show
+
+    if coloured():
+        from rich.console import Console
+
+        # where colours are forced into a pipe, no line is folded for its sake
+        Console(width=None if sys.stdout.isatty() else 200).print(show.table(entries))
+    else:
+        for line in show.lines(entries):
+            say(line)
+    for entry in entries:
+        if not entry.settled and entry.note:
+            say(f"{entry.id}: {one_line(entry.note)}")
