@@ -24,6 +24,8 @@ from sympy import (
     cos,
     cosh,
     coth,
+    erf,
+    erfc,
     exp,
     gamma,
     log,
@@ -69,6 +71,14 @@ def test_the_arctangents_are_refuted_across_the_pole():
     verdict = examine(equation(atan(a) + atan(1 / a), pi / 2, interval(a, -5, 5, open=True)))
     assert verdict.verdict == "refuted"
     assert Rational(verdict.witness["point"]["a"]) < 0
+
+
+def test_a_witness_with_free_functions_is_told_with_their_instances():
+    f, g = Function("f", real=True), Function("g", real=True)
+    many = {f: (lambda *v: v[0] - 2 * v[2],), g: (lambda a, b: a * b,)}
+    verdict = examine(equation(f(u, 1, u) + g(u, 2), 2 * u, interval(u, 0, 1), instances=many))
+    assert verdict.verdict == "refuted"
+    assert verdict.witness["point"].items() >= {"f": "x_1 - 2*x_3", "g": "x_1*x_2"}.items()
 
 
 def test_a_root_of_a_square_is_not_its_base():
@@ -135,6 +145,8 @@ def test_a_floating_point_number_proves_nothing():
         exp(2 * u) - exp(u) ** 2,
         cosh(u) ** 2 - sinh(u) ** 2 - 1,
         acos(-u) + acos(u) - pi,
+        erfc(-u) + erfc(u) - 2,
+        erfc(u) + erf(u) - 1,
         asin(u) + acos(u) - pi / 2,
         sin(acos(u)) - sqrt(1 - u**2),
         Abs(u) - u,

@@ -42,6 +42,7 @@ from sympy import (
     csch,
     default_sort_key,
     erf,
+    erfc,
     exp,
     factorial,
     factorint,
@@ -121,6 +122,8 @@ class Field(Atoms):
             if not any(found <= {"+", ">=", "0"} for found in signs):
                 raise Unsettled(f"{e} may leave the range of the inverse")
             return self._mirrored(e, lambda other: self.atomise(pi) - other)
+        if isinstance(e, erfc):
+            return 1 - self.atomise(erf(e.args[0]))
         if isinstance(e, atan | erf | sin):
             return self._mirrored(e, lambda other: -other)
         if isinstance(e, cos):
