@@ -10,7 +10,7 @@ from sympy import (
     Integral,
     Symbol,
     symbols,
-)  # fmt: skip
+)
 
 from xsec_sym.proof import Refused, Source, interval, parity
 from xsec_sym.proof.checker import opening, replay
