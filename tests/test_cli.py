@@ -275,7 +275,7 @@ def test_export_and_report_take_what_is_one_s_own(mine, engine, exporter, tmp_pa
     run("verify", "--source", "mine", "--derivations", mine, "--record")
     given = []
     monkeypatch.setattr(
-        sys.modules["xsec_sym.export"], "module", lambda names, dtype, record: given.append(record) or ""
+        sys.modules["xsec_sym.export"], "module", lambda names, dtype, record, tick: given.append(record) or ""
     )
     monkeypatch.setattr("xsec_sym.report.build", lambda target, record, tick: given.append(record) or target)
     assert run("export", "mine:1", "--derivations", mine).exit_code == 0

@@ -51,7 +51,7 @@ EXAMPLES: Mapping[str, tuple[tuple[str, str], ...]] = {
     ),
     "new": (
         ("xsec new mypaper", "the folder mypaper, with a first module to fill in"),
-        ("xsec verify --derivations mypaper", "and its verdicts, beside all others"),
+        ("xsec new mypaper masking", "the same, and the module is called masking"),
     ),
     "completion": (
         ('eval "$(xsec completion bash)"', "for this Bash; in ~/.bashrc for every one"),

@@ -41,6 +41,16 @@ def test_k_keeps_within_the_bounds_that_the_enclosures_rest_on(order):
         assert np.all(abs(np.log(dispersion(order, size, c))) <= np.pi / size)
 
 
+@pytest.mark.parametrize("order", ORDERS)
+def test_what_balls_and_digits_start_from_is_what_was_derived(order):
+    """The coefficients of Psi, and K(0) = 1 - 2 int Psi, which every route to H shares."""
+    c, mu = characteristic.c, characteristic.mu
+    psi = sum(a * mu ** (2 * k) for k, a in enumerate(three_terms.characteristic(order, c)))
+    assert (psi - characteristic.PSI[order]).expand() == 0
+    rest = 1 - 2 * characteristic.PSI[order].expand().integrate((mu, 0, 1))
+    assert (three_terms.at_rest(order, c) - rest).expand() == 0
+
+
 def test_the_constant_in_the_bound_from_below():
     c = np.linspace(0.02, 1, 99)
     x, weight = three_terms.nodes(40, 1)

@@ -115,6 +115,18 @@ def three_terms(c):
         yield i, o, root, (half.fourier(mode, mu, mu) * np.pi * (i + o) + single[mode]) / (h[:, None] * h)
 
 
+def test_both_cosines_at_the_horizon():
+    """No warning, and the sign with which the modes grow on the way there."""
+    half, dark, at, near = HalfSpace(THREE, 0.9), HalfSpace(THREE, 0.0), np.zeros(1), np.full(1, 1e-12)
+    for mode in half.modes:
+        edge = half.fourier(mode, at, np.array([0.0, 0.5]))[0]
+        assert np.isinf(edge[0]) and np.sign(edge[0]) == np.sign(half.fourier(mode, near, near)[0, 0])
+        assert np.isfinite(edge[1]) and dark.fourier(mode, at, at) == 0
+    for light in (half.single, half.multiple):
+        assert light(at, at, at) == np.inf and light(at, at + 0.5, at) < 1
+    assert dark.single(at, at, at) == dark.multiple(at, at, at) == 0
+
+
 @pytest.mark.parametrize("c", [0.3, 0.9, 0.999, 1.0])
 def test_three_terms(c):
     """Modes 2, 1 and 0 of `deon2021:16` have 0, 1 and 4 constants besides their H functions: no more are fitted."""

@@ -25,6 +25,7 @@ from sympy import Function
 from xsec_sym.exact import half_space_balls
 from xsec_sym.exact.half_space import StibbsWeir
 from xsec_sym.exact.solved import HLambertSphere
+from xsec_sym.exact.three_terms import at_rest, characteristic
 from xsec_sym.proof.ball_compile import SPECIAL, Closure
 from xsec_sym.proof.ball_functions import NAN
 from xsec_sym.proof.digits_compile import HANDLERS, Run, Slots, compile_mp
@@ -81,21 +82,6 @@ class DispersionLambertSphere(Function):
         return True
 
 
-def _psi(m: int, c: Any) -> tuple[Any, Any, Any]:
-    """Psi as coefficients of 1, y^2 and y^4, for any kind of number."""
-    e = 4 * c + 9
-    return (
-        (207 * c / 384, (c * (20 * c + 281) - 346) * c / 384, 15 * (1 - c) * e * c / 384),
-        (-64 * c / 192, (64 + 5 * e) * c / 192, -5 * e * c / 192),
-        (15 * c / 256, -30 * c / 256, 15 * c / 256),
-    )[m]
-
-
-def _at_rest(m: int, c: Any) -> Any:
-    """K(0), without cancellation where c = 1 makes it 0."""
-    return ((16 - c) * (1 - c) * (4 * c + 9) / 144, 1 + c * (55 - 4 * c) / 144, 1 - c / 16)[m]
-
-
 # --- balls ------------------------------------------------------------------------------------------------------
 
 
@@ -118,11 +104,11 @@ def _moments(t: arb) -> list[arb]:
 
 
 def _log_k(m: int, t: arb, c: arb) -> arb:
-    psi, moments = _psi(m, c), _moments(t)
+    psi, moments = characteristic(m, c), _moments(t)
     if t > 0.5:
         k = 1 - 2 * sum((p * i for p, i in zip(psi, moments, strict=False)), arb(0))
     else:
-        k = _at_rest(m, c) + 2 * t * t * sum((p * i for p, i in zip(psi, moments[1:], strict=True)), arb(0))
+        k = at_rest(m, c) + 2 * t * t * sum((p * i for p, i in zip(psi, moments[1:], strict=True)), arb(0))
     return k.log()
 
 
@@ -156,8 +142,8 @@ def _by_angle(m: int, theta: acb, c: acb) -> acb:
     """K at tan(theta), by its series where all of the ball is near 0, and else as the source has it."""
     if theta.abs_upper() < 0.55:
         t = theta.tan()
-        square, psi = t * t, _psi(m, c)
-        size, k, term, j = arb(square.abs_upper()), acb(_at_rest(m, c)), acb(1), 0
+        square, psi = t * t, characteristic(m, c)
+        size, k, term, j = arb(square.abs_upper()), acb(at_rest(m, c)), acb(1), 0
         if not size < 0.6:
             return NAN
         while size**j > arb(2) ** (-ctx.prec - 8) and j < 2 * ctx.prec:
@@ -206,8 +192,8 @@ def _dispersion(m: int, t: mpf, c: mpf) -> mpf:
     if t > 0.25:
         with mp.extraprec(30):
             return _closed(m, t, c)
-    total, term, j = _at_rest(m, c), mpf(-1), 0
-    psi = _psi(m, c)
+    total, term, j = at_rest(m, c), mpf(-1), 0
+    psi = characteristic(m, c)
     while abs(term) > mp.eps * t**2:
         j, term = j + 1, -term * t**2
         total += 2 * term * sum(p / (2 * (i + j) + 1) for i, p in enumerate(psi))

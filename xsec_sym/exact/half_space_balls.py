@@ -22,7 +22,7 @@ Along the convolution this gives |H(z)| <= 9 max(1, |z|) for |arg z| <= 3 pi / 8
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from functools import lru_cache, wraps
 from typing import Any
 
@@ -140,7 +140,6 @@ def _logarithms(log_k: LogK, a: arb, low: int, high: int) -> list[arb]:
     return [known[k] for k in range(low, high)]
 
 
-@lru_cache(maxsize=64)
 def _values(log_k: LogK, middle: arb, radius: arb, bits: int) -> list[list[arb]]:
     """H at every node of the mesh, by rows as its `places`."""
     m = mesh(bits)
@@ -187,13 +186,19 @@ def value(u: arb, a: arb, log_k: LogK = _log_dispersion) -> arb:
     return (m.error(u) - m.h / arb.pi() * total).exp()
 
 
-def _weighted(a: arb, log_k: LogK) -> Iterator[tuple[arb, arb]]:
+def _weighted(a: arb, log_k: LogK) -> list[tuple[arb, arb]]:
     """Every node v, with H(v) dv."""
-    m = mesh(ctx.prec)
-    values = _values(log_k, arb(a.mid()), arb(a.rad()), ctx.prec)
-    for weight, places, row in zip(m.weights, m.places, values, strict=True):
-        for v, h in zip(places, row, strict=True):
-            yield v, weight * v * h
+    return _masses(log_k, arb(a.mid()), arb(a.rad()), ctx.prec)
+
+
+@lru_cache(maxsize=64)
+def _masses(log_k: LogK, middle: arb, radius: arb, bits: int) -> list[tuple[arb, arb]]:
+    m, values = mesh(bits), _values(log_k, middle, radius, bits)
+    return [
+        (v, weight * v * h)
+        for weight, places, row in zip(m.weights, m.places, values, strict=True)
+        for v, h in zip(places, row, strict=True)
+    ]
 
 
 def _summed(terms: Iterable[arb], size: arb, rest: arb) -> arb:

@@ -41,8 +41,9 @@ class Solved(Function):
 
     def _latex(self, printer: Any, exp: Any = None) -> str:
         name, arguments = self._set()
-        power = f"^{{{exp}}}" if exp is not None else ""
-        return rf"{name}{power}\left({', '.join(printer._print(a) for a in arguments)}\right)"
+        # in braces, as the name may have a superscript of its own
+        head = name if exp is None else rf"{{{name}}}^{{{exp}}}"
+        return rf"{head}\left({', '.join(printer._print(a) for a in arguments)}\right)"
 
     def _sympystr(self, printer: Any) -> str:
         name, arguments = self._set()

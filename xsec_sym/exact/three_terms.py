@@ -59,8 +59,8 @@ def legendre(m: int, orders: list[int], mu: Array) -> Array:
 # --- H from its characteristic function -----------------------------------------------------------------
 
 
-def characteristic(m: int, c: float) -> tuple[float, float, float]:
-    """Psi of order m as coefficients of 1, mu^2 and mu^4."""
+def characteristic(m: int, c: Any) -> tuple[Any, Any, Any]:
+    """Psi of order m as coefficients of 1, mu^2 and mu^4, for any kind of number."""
     b = 4 * c + 9
     return (
         (207 * c / 384, (c * (20 * c + 281) - 346) * c / 384, 15 * (1 - c) * b * c / 384),
@@ -69,9 +69,9 @@ def characteristic(m: int, c: float) -> tuple[float, float, float]:
     )[m]
 
 
-def at_rest(m: int, c: float) -> float:
-    """The root of K(0) = 1 - 2 int Psi, without cancellation where c = 1 makes it 0."""
-    return sqrt(((16 - c) * (1 - c) * (4 * c + 9) / 144, 1 + c * (55 - 4 * c) / 144, 1 - c / 16)[m])
+def at_rest(m: int, c: Any) -> Any:
+    """K(0) = 1 - 2 int Psi, for any kind of number, without cancellation where c = 1 makes it 0."""
+    return ((16 - c) * (1 - c) * (4 * c + 9) / 144, 1 + c * (55 - 4 * c) / 144, 1 - c / 16)[m]
 
 
 def psi(m: int, c: float, mu: Array) -> Array:
@@ -83,7 +83,7 @@ def psi(m: int, c: float, mu: Array) -> Array:
 def _on_nodes(m: int, c: float) -> Array:
     """H at the nodes by Newton's method on H (sqrt(K(0)) + int H Psi x / (mu + x) dx) = 1."""
     mu, weight = nodes()
-    mass, kernel, rest = weight * psi(m, c, mu), mu / (mu[:, None] + mu), at_rest(m, c)
+    mass, kernel, rest = weight * psi(m, c, mu), mu / (mu[:, None] + mu), sqrt(at_rest(m, c))
     h = np.ones(mu.size)
     for _ in range(STEPS):
         below = rest + kernel @ (mass * h)
@@ -102,7 +102,7 @@ def by_equation(m: int, mu: Array, c: float) -> Array:
     """
     x, weight = nodes()
     mass = weight * psi(m, c, x) * _on_nodes(m, c)
-    return 1 / (at_rest(m, c) + (x / (mu[:, None] + x)) @ mass)
+    return 1 / (sqrt(at_rest(m, c)) + (x / (mu[:, None] + x)) @ mass)
 
 
 @lru_cache(maxsize=1)
@@ -126,7 +126,7 @@ def by_fock(m: int, mu: Array, c: float) -> Array:
     [1.0, 2.9761518814]
     """
     t, dt, integrals = _trapezium()
-    log_k = np.log(at_rest(m, c) ** 2 + 2 * t**2 * (np.array(characteristic(m, c)) @ integrals))
+    log_k = np.log(at_rest(m, c) + 2 * t**2 * (np.array(characteristic(m, c)) @ integrals))
     return np.exp(-(mu[:, None] / (1 + (mu[:, None] * t) ** 2)) @ (log_k * dt) / np.pi)
 
 

@@ -11,10 +11,11 @@ of the order of 1. Five regions of the plane, each with a smooth function instea
 - EVEN, kappa < 1.5: (sigma(u) + sigma(-u))/2, an even function of u and of kappa, hence one of u^2 and kappa^2;
 - ROUND, 1.5 < kappa < 8: exp(kappa v) sigma(-v) (1 - exp(-2 kappa))/kappa, entire in v and kappa;
 - LAYER, kappa > 8, v < 0.9: C in sigma(-v) = exp(-w)/sqrt(kappa) [c/2 sqrt(1 + s) h(sqrt w) + C/kappa], where h(z) =
-  1/sqrt(pi) - z erfcx(z) is the boundary layer of a flat surface: C depends on s and alpha^2 and knows no layer;
+  1/sqrt(pi) - z erfcx(z) is the boundary layer of a flat surface (`xsec:sg-rim.layer`): C depends on s and alpha^2
+  and knows no layer;
 - RIM and EDGE, kappa > 8, v > 0.9: q = kappa^2 exp(-kappa s) int_0^inf t exp(-kappa v t) I0(kappa s sqrt(1 - t^2)) dt,
-  whose surplus over the integral up to t = 1 is the elementary v exp(-kappa) (1 + 1/kappa)/kappa: for kappa s < 4 as a
-  function of kappa s and alpha^4, beyond of 1/(kappa s) and s^2, times sqrt(kappa s).
+  whose surplus over the integral up to t = 1 is the elementary v exp(-kappa) (1 + 1/kappa)/kappa (`xsec:sg-rim`): for
+  kappa s < 4 as a function of kappa s and alpha^4, beyond of 1/(kappa s) and s^2, times sqrt(kappa s).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The cross-section of the spherical Gaussian, region by region of the plane of u and alpha.
 
-kappa = 2/alpha^2, v = |u|, s = sqrt(1 - v^2), w = kappa (1 - s). `xsec_sym.export.spherical_gaussian` defines the
-functions that stand in `_spherical_gaussian_tables` as polynomials, and says why these.
+kappa = 2/alpha^2, v = |u|, s = sqrt(1 - v^2), w = kappa (1 - s). `xsec_sym.export.spherical_gaussian_functions` defines
+the functions that stand in `_spherical_gaussian_tables` as polynomials, and says why these.
 """
 
 import math

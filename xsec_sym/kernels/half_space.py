@@ -294,19 +294,34 @@ class HalfSpace:
         return self._solved[mode]
 
     def fourier(self, mode: int, mu_i: np.ndarray, mu_o: np.ndarray) -> np.ndarray:
-        """The factor of cos(mode phi) in the BRDF without single scattering (1/sr), for every pair: a table."""
+        """The factor of cos(mode phi) in the BRDF without single scattering (1/sr), for every pair: a table.
+
+        Infinite where both cosines are 0, with the sign of cos(mode pi), which is that of the light sent straight on
+        along the horizon; 0 there for the albedo 0.
+
+        >>> HalfSpace([1.0], 0.5).fourier(0, np.array([0.0, 1.0]), np.array([0.0])).round(9).tolist()
+        [[inf], [0.0099973]]
+        """
         solution = self.mode(mode)
         (p, x), (q, y) = solution.excess(mu_i), solution.excess(mu_o)
         weighed = solution.weights[:, None]
         total = (weighed * x).T @ (q + y) + (weighed * p).T @ y
-        return self.scale(mode) * total / (mu_i[:, None] + mu_o)
+        return self.scale(mode) * self._over(total, mu_i[:, None] + mu_o)
+
+    def _over(self, total: np.ndarray, cosines: np.ndarray) -> np.ndarray:
+        """total / cosines, and what it grows to where both cosines vanish: without bound, unless nothing scatters."""
+        grazing = cosines == 0.0
+        return np.where(grazing, self.albedo and np.inf, total / np.where(grazing, 1.0, cosines))
 
     @staticmethod
     def scale(mode: int) -> float:
         return (1.0 if mode == 0 else 2.0) * (-1.0) ** mode / np.pi
 
     def multiple(self, mu_i: np.ndarray, mu_o: np.ndarray, phi: np.ndarray) -> np.ndarray:
-        """The BRDF (1/sr) without the light scattered once: three vectors of one length, cosines in [0, 1]."""
+        """The BRDF (1/sr) without the light scattered once: three vectors of one length, cosines in [0, 1].
+
+        Infinite where both cosines are 0, unless the albedo is.
+        """
         cosines, where = np.unique(np.concatenate([mu_i, mu_o]), return_inverse=True)
         # a table of directions at several azimuths has few pairs of cosines
         pairs, pair = np.unique(where.reshape(2, -1), axis=1, return_inverse=True)
@@ -321,14 +336,17 @@ class HalfSpace:
                 a, b = i[part], o[part]
                 values[part] = solution.multiple((p[:, a], x[:, a]), (p[:, b], x[:, b]))
             total += self.scale(mode) * values[pair] * np.cos(mode * phi)
-        return total / (mu_i + mu_o)
+        return self._over(total, mu_i + mu_o)
 
     def single(self, mu_i: np.ndarray, mu_o: np.ndarray, phi: np.ndarray) -> np.ndarray:
-        """The BRDF (1/sr) of the light scattered once, c p(-w_i . w_o)/(mu_i + mu_o), by the Legendre series."""
+        """The BRDF (1/sr) of the light scattered once, c p(-w_i . w_o)/(mu_i + mu_o), by the Legendre series.
+
+        Infinite where both cosines are 0, unless the albedo is.
+        """
         sines = np.sqrt((1.0 - mu_i) * (1.0 + mu_i) * (1.0 - mu_o) * (1.0 + mu_o))
         cosine = -(mu_i * mu_o + sines * np.cos(phi))
         phase = np.polynomial.legendre.legval(cosine, self.coefficients) / (4.0 * np.pi)
-        return self.albedo * phase / (mu_i + mu_o)
+        return self._over(self.albedo * phase, mu_i + mu_o)
 
     def albedo_at(self, mu: np.ndarray) -> np.ndarray:
         """The part of a beam's power that returns, for a beam from the cosine mu (black-sky albedo)."""

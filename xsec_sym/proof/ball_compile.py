@@ -194,6 +194,9 @@ def _node(e: Any, index: dict[Symbol, int], inside: bool) -> Closure:
         call = real_only(lambda z, a: z.real_abs(analytic=a))
     if isinstance(e, BOUNDED) and inside and e.args[0].is_extended_real:
         return _bounded(call, parts[0])
+    if isinstance(e, sp.besselj) and inside and e.args[0].is_integer:
+        doubtful = [p for p in sp.Mul.make_args(e.args[1]) if not p.is_extended_real]
+        return _wave(call, parts[0], parts[1], [_build(p, index, inside) for p in doubtful])
     if len(parts) == 1:
         (p,) = parts
         return lambda v, a: call(a, p(v, a))
@@ -207,6 +210,20 @@ def _bounded(call: Callable[..., acb], argument: Closure) -> Closure:
     def f(v: Sequence[acb], a: bool) -> acb:
         out = call(a, argument(v, a))
         return out if a or out.is_finite() else box
+
+    return f
+
+
+def _wave(call: Callable[..., acb], order: Closure, argument: Closure, doubtful: list[Closure]) -> Closure:
+    # likewise J_n of whole order, never above 1, where every factor of its argument is real on the ball
+    box = acb(arb(0, 1))
+
+    def f(v: Sequence[acb], a: bool) -> acb:
+        out = call(a, order(v, a), argument(v, a))
+        if a or (out.is_finite() and abs(out) < 2):
+            return out
+        real = all(p.imag.is_zero() and p.is_finite() for p in (g(v, a) for g in doubtful))
+        return box if real and all(z.imag.is_zero() for z in v) else out
 
     return f
 

@@ -44,7 +44,7 @@ def enclose(expr: Any, digits: int = 30, seconds: float | None = None) -> arb:
     ...
     xsec_sym.proof.ball_compile.NoEnclosure: Integral(1/x, (x, -1, 1)) diverges, or has a singularity not removed here
     """
-    ball_integrals.clock.until = inf if seconds is None else time.monotonic() + seconds
+    ball_integrals.clock.until = inf if seconds is None else time.process_time() + seconds
     try:
         expr = unfold(expr)
         if expr.atoms(Float):
@@ -61,7 +61,7 @@ def _narrow(run: Closure, digits: int, name: str) -> arb:
     goal = ceil(digits * log2(10))
     bits, tries, out = goal + 24, 0, acb(0)
     while tries < 8 and bits < _MOST_BITS:
-        if time.monotonic() > ball_integrals.clock.until:
+        if time.process_time() > ball_integrals.clock.until:
             raise NoEnclosure(f"the time for {name} ran out")
         with precision(bits):
             out = run((), False)

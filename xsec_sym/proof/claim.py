@@ -10,11 +10,12 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from sympy import Expr, Integral, Symbol, latex, sympify
+from sympy import Expr, Integral, Symbol, sympify
 
 from xsec_sym.proof.accuracy import Accuracy, Measure
 from xsec_sym.proof.domain import Domain, domain
 from xsec_sym.proof.magnitude import Magnitude
+from xsec_sym.proof.typeset import latex
 
 KINDS = ("equation", "definition", "statement", "whole", "out-of-scope", "approximation", "accuracy")
 

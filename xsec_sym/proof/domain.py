@@ -6,9 +6,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from sympy import And, Expr, Ge, Gt, Le, Lt, S, Symbol, latex, oo, sympify
+from sympy import And, Expr, Ge, Gt, Le, Lt, S, Symbol, oo, sympify
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import Boolean
+
+from xsec_sym.proof.typeset import latex
 
 
 class EmptyDomain(ValueError):

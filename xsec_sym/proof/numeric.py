@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import Any
 
 from mpmath import workdps
-from sympy import Abs, Add, Expr, Integral, Sum, Symbol, Wild, cos, lambdify, oo, preorder_traversal, sympify
+from sympy import Abs, Add, Expr, Integral, Sum, Symbol, Wild, cos, lambdify, oo, preorder_traversal, symbols, sympify
 
 from xsec_sym.proof.balls import NoEnclosure, NotReal, enclose
 from xsec_sym.proof.claim import Claim
@@ -20,6 +20,7 @@ from xsec_sym.proof.witnesses import Point
 from xsec_sym.proof.zeros import Undecided
 
 PATIENCE = 2.0  # seconds for one enclosure: a witness that wants more is not effective
+ARGUMENTS = 12  # of a free function, at most
 UNDEFINED = (NoEnclosure, Undecided, ZeroDivisionError, ValueError, TypeError)
 
 
@@ -229,13 +230,19 @@ def rejected_by_digits(claim: Claim, rivals: list[Expr], point: Point, wanted: i
 
 
 def shown(point: Point) -> dict[str, str]:
+    """A point in words: the values of its variables, and the terms of its instances."""
     return {str(k): str(v) if isinstance(v, Expr) else _name(v) for k, v in point.items()}
 
 
 def _name(instance: Any) -> str:
-    from sympy import Symbol
-
-    return str(instance(Symbol("x")))
+    """An instance of a free function, at as many variables as it looks at."""
+    for count in range(1, ARGUMENTS + 1):
+        names = [Symbol("x")] if count == 1 else symbols(f"x_1:{count + 1}")
+        try:
+            return str(instance(*names))
+        except (TypeError, IndexError):  # too few, for a plain function or for one of any number of arguments
+            continue
+    return str(instance)
 
 
 def is_infinite(form: Expr) -> bool:

@@ -84,7 +84,7 @@ class Entry:
 
     @staticmethod
     def _told(claim: Claim) -> dict[str, Any]:
-        from sympy import latex
+        from xsec_sym.proof.typeset import latex
 
         sides = {name: getattr(claim, name) for name in SIDES}
         if claim.kind == "out-of-scope":

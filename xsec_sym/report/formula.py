@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from copy import deepcopy
 from functools import cache
 from xml.etree import ElementTree
@@ -12,11 +11,6 @@ Node = ElementTree.Element
 ROWS = frozenset({"math", "mrow", "msqrt", "mtd", "mstyle"})
 NAMESPACE = "{http://www.w3.org/1998/Math/MathML}"
 THIN = "0.17em"
-
-
-# What becomes of symbols that are named like "omega_1.omega_m": SymPy takes all that follows for a subscript.
-DOTTED = re.compile(r"\((-?)omega(?:_\{(\w+))?\.omega[ _]\{?(\w+)\)\}")
-GRADIENT = re.compile(r"\\omega_\{(\w+)\.grad\}")
 
 
 class Unset(ValueError):
@@ -37,7 +31,7 @@ def _tree(latex: str) -> Node:
     from latex2mathml.converter import convert
 
     try:
-        found = ElementTree.fromstring(convert(_grouped(_dotted(latex))))
+        found = ElementTree.fromstring(convert(latex))
     except Exception as error:  # the converter has no common class of its own for what it cannot read
         raise Unset(f"{latex} cannot be set: {error!r}") from error
     for node in found.iter():
@@ -74,48 +68,6 @@ def equation(left: Node | None, right: Node | None) -> str:
         sign.text = "="
         right.insert(0, sign)
     return "".join(written(side) for side in (left, right) if side is not None)
-
-
-# --- what the converter cannot read --------------------------------------------------------------------------
-
-
-def _dotted(latex: str) -> str:
-    """Products of directions, as they are meant.
-
-    >>> _dotted(r"\\max\\left(0, (-omega_{1.omega m)}\\right)")
-    '\\\\max\\\\left(0, (-\\\\omega_{1} \\\\cdot \\\\omega_{m})\\\\right)'
-    """
-
-    def product(found: re.Match[str]) -> str:
-        sign, first, second = found.groups()
-        low = f"_{{{first}}}" if first else ""
-        return rf"({sign}\omega{low} \cdot \omega_{{{second}}})"
-
-    latex = latex.replace("cos(theta)", r"\cos\theta")
-    return GRADIENT.sub(r"\\omega_{\1} \\cdot \\nabla ", DOTTED.sub(product, latex))
-
-
-def _grouped(latex: str) -> str:
-    """A power of what has a superscript of its own, in braces.
-
-    >>> _grouped("H^{(1)}^{c}(u)")
-    '{H^{(1)}}^{c}(u)'
-    """
-    for found in re.finditer(r"(\\[a-zA-Z]+|[a-zA-Z])\^(?=\{)", latex):
-        end = _closing(latex, found.end())
-        if latex[end : end + 1] == "^":
-            return _grouped(f"{latex[: found.start()]}{{{latex[found.start() : end]}}}{latex[end:]}")
-    return latex
-
-
-def _closing(text: str, start: int) -> int:
-    """The place after the brace that closes the one at ``start``."""
-    depth = 0
-    for place in range(start, len(text)):
-        depth += {"{": 1, "}": -1}.get(text[place], 0)
-        if depth == 0:
-            return place + 1
-    return len(text)
 
 
 # --- tidying --------------------------------------------------------------------------------------------------
