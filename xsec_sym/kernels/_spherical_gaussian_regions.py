@@ -70,7 +70,7 @@ class Kit(NamedTuple):
     pairs: bool
     # Up to here on kappa a Taylor series of three terms is enough.
     faint: float
-    # From here on w the dark side is nothing beside the lit one: sigma(-v)/v < exp(-w)/(sqrt(2 pi) w^(3/2)).
+    # From here on w the dark side is nothing beside the lit one: sigma(-v)/v was below exp(-w)/w wherever it was tried.
     lit_ends: float
     # exp(-w) is 0 from here on.
     dark_ends: float
@@ -93,7 +93,7 @@ def _lines(prefix: str) -> tuple[list[float], list[float]]:
     return half_layer, mean
 
 
-PRECISE = Kit(grid(tables, ""), *_lines(""), np.float64, True, 0.006, 34.0, 746.0, 1e-100)
+PRECISE = Kit(grid(tables, ""), *_lines(""), np.float64, True, 0.006, 37.0, 746.0, 1e-100)
 FAST = Kit(grid(tables, "FAST_"), *_lines("FAST_"), np.float64, False, 0.15, 16.0, 746.0, 1e-100)
 SINGLE = Kit(grid(tables, "FAST_", np.float32), *_lines("FAST_"), np.float32, False, 0.15, 16.0, 104.0, 1e-15)
 
