@@ -22,6 +22,20 @@ KINDS = ("equation", "definition", "statement", "whole", "out-of-scope", "approx
 
 @dataclass
 class Claim:
+    """One thing that a source says, as data: the two sides, the domain, and the script that proves it.
+
+    Made by the methods of a `Source`. `form` is the side that is held to be right; `proof` decorates the script, which
+    gets a `Step`.
+
+    >>> from sympy import Integral, Symbol
+    >>> from xsec_sym.proof import Source, interval
+    >>> u, x = Symbol("u", real=True), Symbol("x", real=True)
+    >>> paper = Source("example", section="2")
+    >>> first = paper.claim("2", "a moment", left=Integral(x, (x, 0, u)), printed=u**2 / 2, where=[interval(u, 0, 1)])
+    >>> first.id, first.kind, first.form
+    ('example:2', 'equation', u**2/2)
+    """
+
     id: str
     source: str
     section: str

@@ -14,7 +14,14 @@ from xsec_sym.proof.typeset import latex
 
 
 class EmptyDomain(ValueError):
-    """No point satisfies what a claim assumes, so the claim would hold vacuously."""
+    """No point satisfies what a claim assumes, so the claim would hold vacuously.
+
+    >>> from sympy import Symbol
+    >>> interval(Symbol("u", real=True), 1, 0)
+    Traceback (most recent call last):
+    ...
+    xsec_sym.proof.domain.EmptyDomain: the interval from 1 to 0 for u is empty; the lower bound comes first
+    """
 
 
 @dataclass(frozen=True)
@@ -139,6 +146,12 @@ def interval(symbol: Symbol, low: Any, high: Any, *, open: str | bool = False) -
 
 
 def integers(symbol: Symbol, low: int = 0, high: int | None = None) -> Integers:
+    """The whole numbers from `low` on, up to `high` if it is given.
+
+    >>> from sympy import Symbol
+    >>> integers(Symbol("n"), 1).text(), integers(Symbol("n"), 0, 3).text()
+    ('n in {1, 2, ...}', 'n in {0, 1, ..., 3}')
+    """
     return Integers(symbol, low, 1, high)
 
 

@@ -56,7 +56,13 @@ SWITCHES = (Abs, Heaviside, Max, Min, Piecewise, sign)
 
 
 class Refused(Exception):
-    """A step that does not follow, with the reason as a sentence."""
+    """A step that does not follow, with the reason as a sentence.
+
+    >>> demand(1 + 1 == 3, "1 + 1 is not 3")
+    Traceback (most recent call last):
+    ...
+    xsec_sym.proof.regular.Refused: 1 + 1 is not 3
+    """
 
 
 def demand(truth: bool, sentence: str | Callable[[], str]) -> None:

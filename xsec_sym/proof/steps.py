@@ -15,7 +15,23 @@ from xsec_sym.proof.rules import Goal
 
 
 class Step:
-    """The goal that is left, and the moves made so far."""
+    """The goal that is left, and the moves made so far: what the script of a proof is given.
+
+    Every method is a move, which is checked as it is made, and raises `Refused` where it does not follow.
+
+    >>> from sympy import Integral, Symbol
+    >>> from xsec_sym.proof import Source, interval
+    >>> u, x = Symbol("u", real=True), Symbol("x", real=True)
+    >>> paper = Source("example", section="3")
+    >>> first = paper.claim("3", "a moment", left=Integral(x, (x, 0, u)), printed=u**2 / 2, where=[interval(u, 0, 1)])
+    >>> @first.proof
+    ... def moment(step):
+    ...     step.antiderivative(x**2 / 2)
+    >>> certificate, told = derive(first, {})
+    >>> print(*(sentence for _, sentence in told), sep="\\n")
+    x**2/2 has the derivative wanted; take it from 0 to u
+    both sides are the same polynomial in the same atoms
+    """
 
     def __init__(self, goal: Goal, claims: Mapping[str, Claim], told: list[tuple[int, str]], depth: int = 0) -> None:
         self.goal: Goal | None = goal
