@@ -78,14 +78,16 @@ class Need:
     tiny: float = 1e-300
 
     def allowed(self, form: str, values: np.ndarray) -> np.ndarray:
-        """What the polynomial may be off by, where its right values are these."""
+        """What the polynomial may be off by, where its right values are these; more than 0."""
         flat = np.full_like(values, self.tolerance)
-        if form == "value":
-            return flat if self.error == "absolute" else self.tolerance * np.maximum(np.abs(values), self.tiny)
-        if self.error == "relative":
+        if form == "logarithm" and self.error == "relative":
             return flat + np.maximum(np.log(self.tiny) - values, 0.0)
-        with np.errstate(over="ignore"):
-            return self.tolerance * np.exp(-values)
+        if self.error == "relative":
+            flat = self.tolerance * np.maximum(np.abs(values), self.tiny)
+        elif form == "logarithm":
+            with np.errstate(over="ignore"):
+                flat = self.tolerance * np.exp(-values)
+        return np.maximum(flat, np.finfo(float).tiny)
 
 
 def tables(function: Function, log: Function, low: float, high: float, need: Need) -> Iterator[Table]:
