@@ -47,6 +47,8 @@ def use_style() -> None:
     plt.rcParams.update(LOOK)
     shell = get_ipython()
     if shell is not None and "inline" in plt.get_backend():
+        # a backend takes hold with the first figure that pyplot makes, and a `Figure` made without it was not shown
+        plt.switch_backend(plt.get_backend())
         shell.run_line_magic("config", "InlineBackend.print_figure_kwargs = {'bbox_inches': None}")
 
 
