@@ -57,8 +57,8 @@ def known(*modules: str) -> dict[str, Claim]:
 
     modules: their names within `derivations`.
 
-    >>> known("extensions.circle")["xsec:circle-mean"].id
-    'xsec:circle-mean'
+    >>> known("deon2016.dirac_ring")["deon2016:11"].id
+    'deon2016:11'
     """
     for name in modules:
         import_module(f"derivations.{name}")

@@ -225,10 +225,8 @@ class CrossSection:
     def _repr_html_(self) -> str:
         """A few values with their errors, for Jupyter."""
         views = np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
-        rows = "".join(
-            f"<tr><td>{u:g}</td><td>{value:.10g}</td><td>{error:.1g}</td></tr>"
-            for u, value, error in zip(views, *self.estimate(views), strict=True)
-        )
+        found = np.stack([views, *self.estimate(views)], axis=1)
+        rows = "".join(f"<tr><td>{u:g}</td><td>{value:.10g}</td><td>{error:.1g}</td></tr>" for u, value, error in found)
         return f"<b>{escape(repr(self))}</b><table><tr><th>u</th><th>sigma</th><th>error</th></tr>{rows}</table>"
 
     def _takes_arrays(self) -> bool:
