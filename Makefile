@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
-.PHONY: verify verify-fresh test test-newest lint bench chart walk report notebooks generate clean
+.PHONY: verify verify-fresh test test-newest lint bench chart walk report notebooks lab generate clean
 
 $(READY): pyproject.toml constraints.txt
 	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed") if sys.version_info < (3, 11) else None'
@@ -58,6 +58,14 @@ report: $(READY)
 
 notebooks: $(READY)
 	$(BIN)/python -m pytest tests/test_notebooks.py
+
+# Opens the notebooks in JupyterLab, which is installed on the first use; the sliders work there.
+lab: .venv/.lab
+	$(BIN)/jupyter lab --notebook-dir notebooks
+
+.venv/.lab: $(READY)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[test,notebooks]'
+	touch .venv/.lab
 
 # Writes the generated kernels anew from the recorded verdicts, and the tables of H, of the spherical Gaussian and of the
 # fits; tests compare them with what is committed. Last, the code of every entry for the report, which takes minutes.

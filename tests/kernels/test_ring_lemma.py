@@ -241,3 +241,10 @@ def test_bad_tolerances(rtol):
 def test_bad_breakpoints(breakpoints):
     with pytest.raises(ValueError, match=r"^breakpoints must be cosines"):
         cross_section(np.exp, breakpoints=breakpoints)
+
+
+def test_display():
+    sigma = cross_section(lambda x: 1 + 0 * x)
+    assert repr(sigma) == "<CrossSection of <lambda>, rtol = 1e-10>"
+    html = sigma._repr_html_()
+    assert "&lt;lambda&gt;" in html and "<lambda>" not in html and f"<td>{np.pi:.10g}</td>" in html

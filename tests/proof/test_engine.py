@@ -36,6 +36,7 @@ from xsec_sym.proof.examine import examine
 from xsec_sym.proof.piece import Piece
 from xsec_sym.proof.rules import Goal
 from xsec_sym.proof.steps import Step
+from xsec_sym.proof.verdict import Verdict
 from xsec_sym.proof.verify import verify
 
 a, u, x, t, phi = symbols("a u x t varphi", real=True)
@@ -331,3 +332,8 @@ def test_signs_and_zeros_that_were_taken_for_granted():
     z = Symbol("z")
     assert not Piece().is_zero(Abs(z) ** 2 - z**2)
     assert not Piece().is_zero(binomial(n - 5, 2) - binomial(n - 5, n - 7))
+
+
+def test_a_verdict_shows_itself_in_html():
+    shown = Verdict("refuted", note="a < b", witness={"point": "a = <1>"})._repr_html_()
+    assert shown == "<b>refuted</b> at a = &lt;1&gt; a &lt; b"

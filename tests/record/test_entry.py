@@ -69,3 +69,13 @@ def test_display(claims):
     assert entry._repr_latex_() == r"$\displaystyle u^{3} = u^{3}$"
     assert "&lt;odd&gt;" in entry._repr_html_() and "confirmed" in entry._repr_html_()
     assert str(entry) == "sample:2 (power 2): confirmed" and entry.settled
+
+
+def test_formulas_are_escaped_in_html():
+    """MathJax reads text: a bare "<" before a letter would open a tag."""
+    entry = Entry(
+        id="s:1", source="s", label="1", title="a<b", verdict="misprint", left="f", printed="x<y", corrected="x<z"
+    )
+    html = entry._repr_html_()
+    assert "<b>misprint</b>" in html and "a&lt;b" in html and "f = x&lt;y" in html and "f = x&lt;z" in html
+    assert entry._repr_latex_() == r"$\displaystyle f = x<z$"

@@ -26,6 +26,13 @@ def test_queries(stored):
     assert "sample:9" not in stored and stored.get("sample:9") is None
 
 
+def test_the_table_of_a_ledger_tells_verdicts_and_escapes_titles(tmp_path):
+    book = Ledger(tmp_path)
+    odd = Entry(id="odd:1", source="odd", label="1", title="for u < 0", verdict="claim-fails")
+    book.write([odd], {}, order=["odd:1"])
+    assert "<td>claim-fails</td>" in book._repr_html_() and "for u &lt; 0" in book._repr_html_()
+
+
 def test_unknown_names_come_with_suggestions(stored):
     with pytest.raises(UnknownEntry, match=r"^there is no entry sampel:1; did you mean sample:1 or ") as caught:
         stored["sampel:1"]

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import cache
+from html import escape
 
 import numpy as np
 
@@ -228,6 +229,16 @@ class CrossSection:
         return total + continued[1], error + 4 * abs(np.diff(continued)[0]) + (
             doubt if doubt > 0.1 * abs(direct) else 0
         )
+
+    def __repr__(self) -> str:
+        return f"<CrossSection of {getattr(self.ndf, '__name__', type(self.ndf).__name__)}, rtol = {self.rtol:g}>"
+
+    def _repr_html_(self) -> str:
+        """A few values with their errors, for Jupyter."""
+        views = np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
+        found = np.stack([views, *self.estimate(views)], axis=1)
+        rows = "".join(f"<tr><td>{u:g}</td><td>{value:.10g}</td><td>{error:.1g}</td></tr>" for u, value, error in found)
+        return f"<b>{escape(repr(self))}</b><table><tr><th>u</th><th>sigma</th><th>error</th></tr>{rows}</table>"
 
     def _takes_arrays(self) -> bool:
         probe = np.array([-0.6, -0.1, 0.3, 0.7])

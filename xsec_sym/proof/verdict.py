@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from html import escape
 from typing import Any
 
 # From best to worst: a display with several parts carries the worst verdict of its parts.
@@ -51,8 +52,8 @@ class Verdict:
 
     def _repr_html_(self) -> str:
         extra = f" ({self.digits} digits)" if self.digits and self.verdict == "confirmed" else ""
-        at = f" at {self.witness['point']}" if self.witness else ""
-        return f"<b>{self.verdict}</b>{extra}{at} {self.note}"
+        at = f" at {escape(str(self.witness['point']))}" if self.witness else ""
+        return f"<b>{self.verdict}</b>{extra}{at} {escape(self.note)}"
 
 
 def worst(verdicts: list[str]) -> str:

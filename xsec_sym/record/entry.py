@@ -168,9 +168,9 @@ class Entry:
         return rf"$\displaystyle {self.latex('printed' if self.corrected is None else 'corrected')}$"
 
     def _repr_html_(self) -> str:
-        rows = [("printed", f"$\\displaystyle {self.latex()}$")] if self.printed is not None else []
+        rows = [("printed", f"$\\displaystyle {escape(self.latex())}$")] if self.printed is not None else []
         if self.corrected is not None:
-            rows.append(("corrected", f"$\\displaystyle {self.latex('corrected')}$"))
+            rows.append(("corrected", f"$\\displaystyle {escape(self.latex('corrected'))}$"))
         said = [("edit", self.edit), ("where", self.domain), ("reading", self.reading), ("note", self.note)]
         if self.verdict == "confirmed" and self.digits:
             said.append(("digits", str(self.digits)))
