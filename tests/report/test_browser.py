@@ -184,6 +184,31 @@ def test_the_keyboard_reaches_what_can_be_done(browser):
     assert browser.find("details.derivation").get_attribute("open")
 
 
+def test_escape_clears_the_search_and_focus_is_seen(browser):
+    from selenium.webdriver.common.keys import Keys
+
+    browser.open("kenha2018.html")
+    total = browser.count("article.entry")
+    browser.find("body").send_keys("/")
+    field = browser.driver.switch_to.active_element
+    field.send_keys("no such words")
+    assert browser.count("article.entry") == 0
+    field.send_keys(Keys.ESCAPE)
+    assert browser.count("article.entry") == total and field.get_attribute("value") == ""
+    # from the search on: its filters, then what opens all, the sections, the first entry; each with an outline
+    reached = []
+    for _ in range(25):
+        browser.driver.switch_to.active_element.send_keys(Keys.TAB)
+        here, outline = browser.run("""
+            const e = document.activeElement;
+            return [e.name || e.id || e.closest("nav")?.className || e.closest("article")?.tagName || e.tagName,
+                    getComputedStyle(e).outlineStyle];""")
+        assert outline != "none", here
+        reached.append(here)
+    order = list(dict.fromkeys(reached))
+    assert order[:4] == ["verdict", "unfold", "sections", "ARTICLE"]
+
+
 def test_only_wide_formulas_are_stops_of_the_keyboard(browser):
     browser.open("deon2021.html", width=375)
     stops, over, all_ = browser.run("""
@@ -191,6 +216,10 @@ def test_only_wide_formulas_are_stops_of_the_keyboard(browser):
         return [boxes.filter((b) => b.tabIndex === 0).length, boxes.filter((b) => b.scrollWidth > b.clientWidth).length,
                 boxes.length];""")
     assert 0 < stops == over < all_
+    # what is a little too wide is set smaller instead, but never so small that it cannot be read
+    fits = browser.run("return [...document.querySelectorAll('.formula')].map((b) => b.style.getPropertyValue('--fit'))")
+    fits = [float(f) for f in fits if f]
+    assert len(fits) > stops and min(fits) == 0.75
 
 
 def test_code_is_copied(browser):
@@ -230,6 +259,7 @@ def test_wide_formulas_show_what_differs_and_fit_on_paper(browser):
         return [boxes.filter((b) => out(mark(b), b)).length, boxes.length];""")
     assert wide > 2 and hidden == 0
     browser.run("dispatchEvent(new Event('beforeprint'))")
+    assert browser.run("return [...document.querySelectorAll('.tiny')].map((b) => b.closest('li').id)") == ["41", "41"]
     browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
     over = browser.run("""
         return [...document.querySelectorAll(".formula math")]

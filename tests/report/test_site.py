@@ -22,24 +22,38 @@ LEDGER = Ledger()
 VOID = {"meta", "link", "input", "br", "img", "hr", "mspace", "rect"}
 
 
+class Node(dict):
+    """An element; its text is put together when it is asked for."""
+
+    def __missing__(self, key):
+        assert key == "text"
+        self["text"] = "".join(self.pieces[self.start : self.end])
+        return self["text"]
+
+
 class Page(HTMLParser):
     """Elements in order, and where each begins and ends."""
 
     def __init__(self, text):
         super().__init__()
-        self.elements, self.open, self.faults = [], [], []
+        self.elements, self.open, self.faults, self.pieces = [], [], [], []
         self.feed(text)
         self.close()
         assert not self.open and not self.faults, (self.open[:3], self.faults[:3])
 
     def handle_starttag(self, tag, attrs):
-        node = {"tag": tag, "attrs": dict(attrs), "within": list(self.open), "text": ""}
-        self.elements.append(node)
+        node = self.began(tag, attrs)
         if tag not in VOID:
             self.open.append(node)
 
     def handle_startendtag(self, tag, attrs):
-        self.elements.append({"tag": tag, "attrs": dict(attrs), "within": list(self.open), "text": ""})
+        self.began(tag, attrs)
+
+    def began(self, tag, attrs):
+        node = Node(tag=tag, attrs=dict(attrs), within=list(self.open))
+        node.pieces, node.start, node.end = self.pieces, len(self.pieces), len(self.pieces)
+        self.elements.append(node)
+        return node
 
     def handle_endtag(self, tag):
         if tag in VOID:
@@ -47,11 +61,10 @@ class Page(HTMLParser):
         if not self.open or self.open[-1]["tag"] != tag:
             self.faults.append(tag)
         else:
-            self.open.pop()
+            self.open.pop().end = len(self.pieces)
 
     def handle_data(self, data):
-        for node in self.open:
-            node["text"] += data
+        self.pieces.append(data)
 
     def of_class(self, name):
         return [e for e in self.elements if name in e["attrs"].get("class", "").split()]
@@ -72,6 +85,7 @@ def parsed(site):
 
 def test_every_link_and_anchor_resolves(site, parsed):
     tried = 0
+    ids = {name: set(page.ids) for name, page in parsed.items()}
     for name, page in parsed.items():
         for link in page.links:
             parts = urlsplit(link)
@@ -79,7 +93,7 @@ def test_every_link_and_anchor_resolves(site, parsed):
             target = parts.path or name
             assert (site.folder / target).is_file(), f"{name}: {link}"
             if parts.fragment:
-                assert unquote(parts.fragment) in parsed[target].ids, f"{name}: {link}"
+                assert unquote(parts.fragment) in ids[target], f"{name}: {link}"
             tried += 1
     assert tried > 2000
 
@@ -235,6 +249,30 @@ def test_the_code_that_is_shown_runs(parsed):
     # by the definition at the pole: the clamped cosine against D = 1 / (1 + x^2)
     x = np.linspace(0, 1, 100_001)
     assert np.isclose(space["sigma_inv1pu2"](1.0), np.trapezoid(2 * np.pi * x / (1 + x**2), x), rtol=1e-8)
+
+
+def test_what_cites_is_shown_as_the_record_has_it(site, parsed):
+    """BibTeX on the page of every source and on its errata, and in the evidence of every verdict."""
+    from xsec_sym.record.sources import SOURCES, bibtex
+
+    for key in {e.source for e in LEDGER.values()}:
+        for name in (f"{key}.html", f"errata-{key}.html"):
+            if name in parsed:
+                first = next(e for e in parsed[name].of_class("cite"))
+                assert key in SOURCES and bibtex(key) in first["text"], name
+        shown = {}
+        for e in parsed[f"{key}.html"].elements:
+            if e["tag"] == "code" and articles_of(e) and any(w["attrs"].get("class") == "quoted" for w in e["within"]):
+                shown[f"{key}:{articles_of(e)[0]['attrs']['id']}"] = e["text"]
+        judged = [e for e in LEDGER.values() if e.source == key]
+        assert all(shown.get(e.id, e.bibtex()) == e.bibtex() for e in judged)
+        assert {e.id for e in judged if e.verdict in ("proved", "confirmed", "misprint")} <= set(shown)
+
+
+def test_formulas_in_prose_are_told_apart(parsed):
+    item = next(a for a in articles(parsed["deon2016.html"]) if a["attrs"]["id"] == "18")
+    said = [e["text"] for e in parsed["deon2016.html"].of_class("maths") if item in e["within"]]
+    assert said[:3] == ["u_i", "(u_i^2 - 1)", "(u_i - 1)"]
 
 
 def test_two_builds_are_equal_and_a_report_replaces_a_report(site, tmp_path):

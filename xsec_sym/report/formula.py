@@ -11,6 +11,10 @@ Node = ElementTree.Element
 ROWS = frozenset({"math", "mrow", "msqrt", "mtd", "mstyle"})
 NAMESPACE = "{http://www.w3.org/1998/Math/MathML}"
 THIN = "0.17em"
+# What stands higher than a letter with its indices: only about these do brackets grow.
+TALL = frozenset({"mfrac", "msqrt", "mroot", "munder", "mover", "munderover", "mtable"})
+# After these a sign is that of a number, not a sum's.
+BEFORE_A_SIGN = frozenset("(=,<>[·≤≥")
 
 
 class Unset(ValueError):
@@ -44,6 +48,7 @@ def _tree(latex: str) -> Node:
 
 def written(math: Node, display: bool = True) -> str:
     """The tree as a text for a page."""
+    _fit(math)
     math.set("display", "block" if display else "inline")
     return ElementTree.tostring(math, encoding="unicode")
 
@@ -90,13 +95,38 @@ def _tidy(node: Node) -> None:
             children.append(child[0])
         else:
             children.append(child)
-    if node.tag == "mo" and _is_name(node.text):
+    if node.tag == "mo" and (_is_name(node.text) or node.text == "∞"):
         node.tag = "mi"
         node.attrib.clear()
     if node.tag == "mrow":
         node.attrib.clear()
     node.tail = None
     node[:] = children
+
+
+def _fit(node: Node) -> None:
+    """Brackets about low things stay low, for a browser sets those that may grow in a wider space; signs join on.
+
+    Only when a tree is written: until then two trees differ only where the formulas do.
+
+    >>> print(set_(r"\\left(-1\\right)", display=False))
+    <math display="inline"><mrow><mo stretchy="false" fence="true" form="prefix">(</mo><mo form="prefix">−</mo>\
+<mn>1</mn><mo stretchy="false" fence="true" form="postfix">)</mo></mrow></math>
+    """
+    if fenced(node) and not any(part.tag in TALL or _grows(part) for part in node.iter()):
+        for part in node:
+            if part.tag == "mo" and part.get("fence") == "true":
+                part.set("stretchy", "false")
+    for before, sign in zip(node, node[1:], strict=False):
+        if sign.tag == "mo" and sign.text in ("−", "+", "-") and before.tag == "mo" and before.text in BEFORE_A_SIGN:
+            sign.set("form", "prefix")
+    for child in node:
+        _fit(child)
+
+
+def _grows(node: Node) -> bool:
+    """A sign of an integral or a sum, with or without its ends."""
+    return node.tag == "mo" and node.text in ("∫", "∑", "∏")
 
 
 def _is_name(text: str | None) -> bool:

@@ -168,6 +168,10 @@ class Item:
         return f"certificates/{self.entry.source}/{self.entry.label}.json" if self.certified else ""
 
     @property
+    def cited(self) -> str:
+        return self.entry.bibtex()
+
+    @property
     def moves(self) -> int | None:
         return self.entry.evidence.get("moves")
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from xsec_sym.record.entry import Entry
-from xsec_sym.record.sources import SOURCES
+from xsec_sym.record.sources import SOURCES, bibtex
 
 ROWS = {
     "1": "1", "u": "x", "u2": "x^{2}", "u4": "x^{4}",
@@ -45,6 +45,11 @@ class Paper:
     @property
     def errata(self) -> str:
         return f"errata-{self.key}.html"
+
+    @property
+    def bibtex(self) -> str:
+        """Empty where nothing is known that a bibliography could hold."""
+        return bibtex(self.key) if self.key in SOURCES else ""
 
     @property
     def short(self) -> str:

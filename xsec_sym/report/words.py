@@ -28,18 +28,90 @@ def href(name: str) -> str:
 
 
 def linked(text: str, known: Container[str]) -> Markup:
-    """The text with the ids in it as links.
+    """The text with the ids in it as links, and formulas in a face of equal widths.
 
     >>> print(linked("by xsec:sg-odd, x < 1", {"xsec:sg-odd"}))
-    by <a href="xsec.html#sg-odd">xsec:sg-odd</a>, x &lt; 1
+    by <a href="xsec.html#sg-odd">xsec:sg-odd</a>, <code class="maths">x &lt; 1</code>
     """
     said = Markup("")
     end = 0
     for found in re.finditer(r"\b[a-z_0-9]+:[\w.-]*\w", text):
         if found[0] in known:
-            said += escape(text[end : found.start()]) + Markup('<a href="{}">{}</a>').format(href(found[0]), found[0])
+            said += prose(text[end : found.start()]) + Markup('<a href="{}">{}</a>').format(href(found[0]), found[0])
             end = found.end()
-    return said + escape(text[end:])
+    return said + prose(text[end:])
+
+
+# A word that only a formula has, one that may stand in it, and a sign between two.
+_SURE = re.compile(r"\S*(?:[\^*]|\w_\w|\w\(|\|\w|\de[-+]?\d)\S*")
+_MAYBE = re.compile(r"[(\[|-]*(?:\d[\w.]*|[A-Za-z]'?|infinity|" + "|".join(GREEK) + r")[)\]|,;:.]*")
+_SIGN = re.compile(r"[-+*/=<>~]|[<>!]=|->")
+# Stands before a formula as its factor: letters but those that are words.
+_FACTOR = re.compile(r"\(*(?:\d+|[b-zB-HJ-Z]|" + "|".join(GREEK) + ")")
+LONG = 28
+
+
+def prose(text: str) -> Markup:
+    """Words, with the formulas among them told apart as code.
+
+    >>> print(prose("square the u_i in the bracket: (u_i^2 - 1) for (u_i - 1), for p < 0 (an even one)"))
+    square the <code class="maths">u_i</code> in the bracket: <code class="maths">(u_i^2 - 1)</code> for \
+<code class="maths">(u_i - 1)</code>, for <code class="maths">p &lt; 0</code> (an even one)
+    """
+    parts = re.split(r"(\s+)", text)  # words at even places, what is between them at odd ones
+    words, said, k = parts[::2], Markup(""), 0
+    while k < len(words):
+        end = _formula(words, k)
+        run = "".join(parts[2 * k : 2 * end + 1])
+        said += _code(run) if end > k or _SURE.fullmatch(run) else escape(run)
+        said += escape(parts[2 * end + 1]) if 2 * end + 1 < len(parts) else ""
+        k = end + 1
+    return said
+
+
+def _formula(words: list[str], k: int) -> int:
+    """The place of the last word of the formula that begins at this one."""
+
+    def fits(word: str) -> bool:
+        return bool(_SURE.fullmatch(word) or _MAYBE.fullmatch(word))
+
+    end = k
+    inside = _deeper(words[k])
+    while fits(words[k]) and end + 1 < len(words) and (words[end][-1] not in ",;:." or inside > 0):
+        following = words[end + 1]
+        factors = (
+            _SURE.fullmatch(following)
+            and (_SURE.fullmatch(words[end]) or _FACTOR.fullmatch(words[end]))
+            or words[end].lstrip("(").isdigit()
+            and _FACTOR.fullmatch(following.rstrip("),;:."))
+            and not following.rstrip("),;:.").isdigit()
+        )
+        if _SIGN.fullmatch(following) and end + 2 < len(words) and fits(words[end + 2]):
+            step = 2
+        elif factors or (inside > 0 and (end > k or _SURE.fullmatch(words[k])) and fits(following)):
+            step = 1
+        else:
+            break
+        inside += sum(map(_deeper, words[end + 1 : end + 1 + step]))
+        end += step
+    return end
+
+
+def _deeper(word: str) -> int:
+    return word.count("(") - word.count(")")
+
+
+def _code(run: str) -> Markup:
+    """Brackets and stops that belong to the sentence stay out of it."""
+    core = run.rstrip(",;:.")
+    head = tail = ""
+    while core.count("(") > core.count(")") and core.startswith("("):
+        head, core = head + "(", core[1:]
+    while core.count(")") > core.count("(") and core.endswith(")"):
+        tail, core = ")" + tail, core[:-1]
+    tail += run[len(run.rstrip(",;:.")) :]
+    kind = "maths long" if len(core) > LONG else "maths"
+    return escape(head) + Markup('<code class="{}">{}</code>').format(kind, core) + escape(tail)
 
 
 def symbols(text: str) -> Markup:

@@ -42,7 +42,11 @@
   }
 
   // --- formulas that are too wide can be scrolled by keyboard ----------------------------------
+  const SMALLEST = 0.75; // what is smaller is hard to read: from there on it is scrolled
   const reachable = () => {
+    for (const box of all(".formula")) { box.style.removeProperty("--fit"); box.classList.remove("tiny"); }
+    const over = all(".formula").filter((box) => box.scrollWidth > box.clientWidth).map((box) => [box, box.clientWidth / box.scrollWidth]);
+    for (const [box, fit] of over) box.style.setProperty("--fit", Math.max(SMALLEST, 0.98 * fit).toFixed(3));
     const wide = all(".formula").map((box) => [box, box.scrollWidth > box.clientWidth]);
     for (const [box, over] of wide) {
       if (over) box.tabIndex = 0; else box.removeAttribute("tabindex");
@@ -57,15 +61,20 @@
     for (const [box, left] of places) box.scrollLeft += left;
   };
   const fitted = () => { // on paper nothing can be scrolled: 40 rem are about the width of a sheet
-    const sheet = 40 * parseFloat(getComputedStyle(root).fontSize);
+    for (const box of all(".formula")) box.style.removeProperty("--fit");
+    const sheet = 40 * parseFloat(getComputedStyle(root).fontSize) / 0.75; // on paper letters are smaller by this
     const wide = all(".formula").map((box) => [box, Math.max(...all("math", box).map((m) => m.getBoundingClientRect().width), 1)]);
-    for (const [box, width] of wide) box.style.setProperty("--fit", Math.min(1, sheet / width).toFixed(3));
+    for (const [box, width] of wide) {
+      box.style.setProperty("--fit", Math.min(1, sheet / width).toFixed(3));
+      box.classList.toggle("tiny", sheet < 0.6 * width);
+    }
   };
   let waiting = 0;
   addEventListener("resize", () => { clearTimeout(waiting); waiting = setTimeout(reachable, 200); });
   addEventListener("load", reachable);
   addEventListener("load", revealed);
   addEventListener("beforeprint", fitted);
+  addEventListener("afterprint", reachable);
 
   // --- search --------------------------------------------------------------------------------
   const search = $("#search");
@@ -96,7 +105,8 @@
       count += fits;
     }
     for (const section of all("section.section")) section.hidden = !$("article.entry:not([hidden])", section);
-    shown.textContent = count === entries.length ? `${count} entries` : `${count} of ${entries.length} entries shown`;
+    const noun = shown.dataset.of || "entries";
+    shown.textContent = count === entries.length ? `${count} ${noun}` : `${count} of ${entries.length} ${noun} shown`;
     $("#nothing").hidden = count > 0;
     reachable();
   };
