@@ -217,7 +217,9 @@ def test_only_wide_formulas_are_stops_of_the_keyboard(browser):
                 boxes.length];""")
     assert 0 < stops == over < all_
     # what is a little too wide is set smaller instead, but never so small that it cannot be read
-    fits = browser.run("return [...document.querySelectorAll('.formula')].map((b) => b.style.getPropertyValue('--fit'))")
+    fits = browser.run(
+        "return [...document.querySelectorAll('.formula')].map((b) => b.style.getPropertyValue('--fit'))"
+    )
     fits = [float(f) for f in fits if f]
     assert len(fits) > stops and min(fits) == 0.75
 

@@ -348,13 +348,13 @@ def test_a_failure_leaves_the_old_report(tmp_path, monkeypatch):
 def test_the_command_says_where_the_page_is(tmp_path, monkeypatch):
     from xsec_sym.report import site as module
 
-    monkeypatch.setattr(module, "charts", lambda folder, tick: [])
-    monkeypatch.setattr(module, "codes", lambda record: {})
+    monkeypatch.setattr(module, "pages", lambda record, folder, tick: [("index.html", "a page"), (MARK, "")])
     monkeypatch.chdir(tmp_path)
     said = CliRunner().invoke(cli.main, ["report"])
     assert said.exit_code == 0, said.output
     assert said.stdout.strip() == str(tmp_path / "report" / "index.html")
     assert re.fullmatch(r"written in \d+ s\n", said.stderr)
+    assert (tmp_path / "report" / "index.html").read_text() == "a page"
     said = CliRunner().invoke(cli.main, ["report", "-o", "/proc/nowhere/report"])
     assert said.exit_code == 2 and said.output.count("\n") == 1
 

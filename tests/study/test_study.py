@@ -167,6 +167,20 @@ def test_nothing_is_dropped_from_a_chart(data):
     assert all(s.shown <= chart.CEILING for s in drawn)
 
 
+@pytest.mark.parametrize("name", ["phase_lambert_sphere", "brdf_lambert_sphere"])
+def test_foot_and_legend_have_room(name):
+    """One column, and the longest names: nothing is cut off or lies over a frame."""
+    made = chart.figure(files.stored(name))
+    paper, (legend,) = made.bbox, made.legends
+    (foot,) = (text for text in made.texts if "one thread" in text.get_text())
+    boxes = [thing.get_window_extent() for thing in (foot, legend)]
+    assert all(paper.x0 <= b.x0 and b.x1 <= paper.x1 and paper.y0 <= b.y0 and b.y1 <= paper.y1 for b in boxes)
+    # another viewer's letters may be wider
+    assert boxes[0].x1 < 0.92 * paper.x1
+    frames = [frame.get_tightbbox() for frame in made.axes]
+    assert not [f for f in frames for b in boxes if f.overlaps(b)]
+
+
 @pytest.mark.parametrize("picture", [chart, stability])
 def test_the_same_data_give_the_same_picture(data, tmp_path, picture):
     for name in ("a.svg", "b.svg"):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from copy import deepcopy
 from functools import cache
+from itertools import pairwise
 from xml.etree import ElementTree
 
 Node = ElementTree.Element
@@ -117,7 +118,7 @@ def _fit(node: Node) -> None:
         for part in node:
             if part.tag == "mo" and part.get("fence") == "true":
                 part.set("stretchy", "false")
-    for before, sign in zip(node, node[1:], strict=False):
+    for before, sign in pairwise(node):
         if sign.tag == "mo" and sign.text in ("−", "+", "-") and before.tag == "mo" and before.text in BEFORE_A_SIGN:
             sign.set("form", "prefix")
     for child in node:

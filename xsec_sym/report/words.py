@@ -79,10 +79,8 @@ def _formula(words: list[str], k: int) -> int:
     inside = _deeper(words[k])
     while fits(words[k]) and end + 1 < len(words) and (words[end][-1] not in ",;:." or inside > 0):
         following = words[end + 1]
-        factors = (
-            _SURE.fullmatch(following)
-            and (_SURE.fullmatch(words[end]) or _FACTOR.fullmatch(words[end]))
-            or words[end].lstrip("(").isdigit()
+        factors = (_SURE.fullmatch(following) and (_SURE.fullmatch(words[end]) or _FACTOR.fullmatch(words[end]))) or (
+            words[end].lstrip("(").isdigit()
             and _FACTOR.fullmatch(following.rstrip("),;:."))
             and not following.rstrip("),;:.").isdigit()
         )
