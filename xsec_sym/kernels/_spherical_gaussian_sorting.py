@@ -69,7 +69,8 @@ class Left:
             p = regions.points(self.u[places], self.alpha[places])
             x, y, cells = np.empty_like(p.v), np.empty_like(p.v), np.empty(p.v.size, np.intp)
             # Cells are told apart in the precision that they are where points are many.
-            rounded = regions.points(p.u, p.alpha, dtype) if (dtype := self.grid.joined.dtype.type) is not np.float64 else None
+            dtype = self.grid.joined.dtype.type
+            rounded = None if dtype is np.float64 else regions.points(p.u, p.alpha, dtype)
             for region, patches, first, own in zip(
                 regions.REGIONS, self.grid.parts, self.grid.firsts, inside, strict=False
             ):
