@@ -120,6 +120,11 @@ def test_the_odd_part_is_right_to_two_places():
     u, alpha = gaussian.points(rng, 400)
     # Where sigma is little more than its odd part, whose rounding errors show.
     u, alpha = np.append(u, rng.uniform(0.5, 1, 500)), np.append(alpha, rng.uniform(0.5, 2, 500))
+    # Where the exponent and the mean cosine, rounded as they come, make 2.9 and 2.1 places.
+    u, alpha = (
+        np.append(u, [0.6863931272187602, 0.7917896376982807]),
+        np.append(alpha, [0.9893545491468212, 1.1502476769089671]),
+    )
     facing, away = sigma_spherical_gaussian(np.abs(u), alpha), sigma_spherical_gaussian(-np.abs(u), alpha)
     with mp.workdps(60):
         for lit, dark, *point in zip(facing, away, np.abs(u), alpha, strict=True):

@@ -20,8 +20,8 @@ WHOLE, PART = 2**20, 2**19
 SHRUNK = -300
 # Up to here another call costs more than sorting.
 FEW = 2048
-# Below it the exponent needs no second part.
-SMALL_EXPONENT = 1.0
+# Below it the exponent needs no second part; nor from there on where what falls so is added to the odd part.
+SMALL_EXPONENT, LIT_EXPONENT = 1.0, 3.0
 # From this cosine on the logarithm is formed without 1 - (1 - x).
 NEARLY_FACING = 0.5
 
@@ -75,7 +75,7 @@ def _few(kit: Kit, form: Form, joint: Joint, value: np.ndarray) -> None:
         x, along = regions.least_exponent(p), np.zeros(p.u.size, bool)
         first = slice(0, steep[0].stop - rest.start)
         x[first], along[first] = p.kappa[first] * p.v[first], True
-        at, factor = Steep(p, x, regions.mean_cosine(kit, p.kappa), along), np.empty_like(x)
+        at, factor = Steep(p, x, regions.steep_cosine(kit, p), along), np.empty_like(x)
         for region, inside in zip(regions.REGIONS[1:], steep, strict=True):
             if inside.start < inside.stop:
                 own = slice(inside.start - rest.start, inside.stop - rest.start)
@@ -178,7 +178,7 @@ def _tiny(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
 def _sigma_steep(factor: np.ndarray, at: Steep, pairs: bool) -> np.ndarray:
     fall = np.exp(-at.x)
     if pairs:
-        deep = ((at.points.u < 0.0) & (at.x > SMALL_EXPONENT)).nonzero()[0]
+        deep = ((at.x > SMALL_EXPONENT) & ((at.points.u < 0.0) | (at.x < LIT_EXPONENT))).nonzero()[0]
         if deep.size:
             fall[deep] -= fall[deep] * regions.round_off(at.at(deep))
     return fall * factor + np.maximum(at.points.u, 0.0) * at.mean

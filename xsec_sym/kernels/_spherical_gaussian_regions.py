@@ -124,6 +124,18 @@ def pale_cosine(kit: Kit, alpha: np.ndarray) -> np.ndarray:
     return mean + (low + kappa * ratio_low + ratio * kappa_low * (1.0 - 0.1 * kappa * kappa))
 
 
+def steep_cosine(kit: Kit, p: Points) -> np.ndarray:
+    """The same for kappa > PALE, where a pair gives 1/kappa = a/2 at once."""
+    if not kit.pairs:
+        return mean_cosine(kit, p.kappa)
+    a, a_low = two_square(p.alpha)
+    kappa, kappa_low = quotient(2.0, 0.0, a, a_low)
+    beyond = 2.0 / np.expm1(2.0 * kappa)
+    beyond -= kappa_low * beyond * (2.0 + beyond)
+    most, low = quick_two_sum(1.0, -0.5 * a)
+    return most + (low - 0.5 * a_low + beyond)
+
+
 def even(kit: Kit, found: np.ndarray, u: np.ndarray) -> np.ndarray:
     """EVEN from its polynomials, in the precision of u."""
     return found.astype(u.dtype) + EVEN_MIDDLE if kit.dtype is np.float32 else found
@@ -182,7 +194,7 @@ class Region(NamedTuple):
 
     def steep(self, kit: Kit, p: Points) -> Steep:
         x = p.kappa * p.v if self.along else least_exponent(p)
-        return Steep(p, x, mean_cosine(kit, p.kappa), self.along)
+        return Steep(p, x, steep_cosine(kit, p), self.along)
 
 
 def _at_the_edge(p: Points) -> tuple[np.ndarray, np.ndarray]:
