@@ -20,8 +20,8 @@ WHOLE, PART = 2**20, 2**19
 SHRUNK = -300
 # Up to here another call costs more than sorting.
 FEW = 2048
-# Below it the exponent needs no second part.
-SMALL_EXPONENT = 1.0
+# Below it the exponent needs no second part; nor from there on where what falls so is added to the odd part.
+SMALL_EXPONENT, LIT_EXPONENT = 1.0, 3.0
 # From this cosine on the logarithm is formed without 1 - (1 - x).
 NEARLY_FACING = 0.5
 
@@ -68,14 +68,14 @@ def _few(kit: Kit, form: Form, joint: Joint, value: np.ndarray) -> None:
     p = joint.points.at(pale)
     if p.u.size:
         odd = 0.5 * p.u * regions.pale_cosine(kit, p.alpha)
-        value[joint.places[pale]] = form.pale(p.u, p.kappa, joint.found[pale], odd)
+        value[joint.places[pale]] = form.pale(p.u, p.kappa, regions.even(kit, joint.found[pale], p.u), odd)
     rest = slice(pale.stop, steep[-1].stop)
     p = joint.points.at(rest)
     if p.u.size:
         x, along = regions.least_exponent(p), np.zeros(p.u.size, bool)
         first = slice(0, steep[0].stop - rest.start)
         x[first], along[first] = p.kappa[first] * p.v[first], True
-        at, factor = Steep(p, x, regions.mean_cosine(kit, p.kappa), along), np.empty_like(x)
+        at, factor = Steep(p, x, regions.steep_cosine(kit, p), along), np.empty_like(x)
         for region, inside in zip(regions.REGIONS[1:], steep, strict=True):
             if inside.start < inside.stop:
                 own = slice(inside.start - rest.start, inside.stop - rest.start)
@@ -88,7 +88,7 @@ def _made(kit: Kit, form: Form, region: Region, p: Points, found: np.ndarray) ->
     if region.factor:
         at = region.steep(kit, p)
         return form.steep(region.factor(kit, found, at), at, kit.pairs)
-    return form.pale(p.u, p.kappa, found, 0.5 * p.u * regions.pale_cosine(kit, p.alpha))
+    return form.pale(p.u, p.kappa, regions.even(kit, found, p.u), 0.5 * p.u * regions.pale_cosine(kit, p.alpha))
 
 
 def _alone(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
@@ -99,11 +99,11 @@ def _alone(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray
         a = rough * rough
         s = type(v)(math.sqrt((1.0 - v) * (1.0 + v)))
         one = Points(scalar(u), rough, v, s, a, 2.0 / a)
-        if one.kappa >= kit.faint:
+        if one.kappa >= (DIM if kit.dtype is np.float32 else kit.faint):
             w = one.kappa * (v * v) / (1.0 + s)
-            p = regions.points(u, alpha)
             if w > (kit.lit_ends if one.u > 0.0 else _dark_ends(kit, form)):
-                return form.bare(u, p.kappa)
+                return form.bare(u, np.full_like(u, one.kappa))
+            p = regions.points(u, alpha)
             i = regions.region_of_one(one)
             region = regions.REGIONS[i]
             cell = kit.grid.firsts[i] + kit.grid.parts[i].cell_of_one(*region.variables(one))
@@ -142,13 +142,13 @@ def _simple(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray, value: np.nd
         value[chosen] = form.pale(at, k, *_faint(at, k))
     known ^= bare
     known ^= faint
-    if u.size > FEW:
-        # Not worth sorting.
+    if u.size > FEW or kit.dtype is np.float32:
+        # Not worth sorting; and in float32 what is sorted is of more digits.
         dim = p.kappa < DIM
         dim &= known
         chosen = dim.nonzero()[0]
         at, k = u[chosen], p.kappa[chosen]
-        even = kit.grid(at * at, k * k, 0)
+        even = regions.even(kit, kit.grid(at * at, k * k, 0), at)
         value[chosen] = form.pale(at, k, even, 0.5 * at * regions.pale_cosine(kit, alpha[chosen]))
         known ^= dim
     return known.nonzero()[0], p
@@ -178,7 +178,7 @@ def _tiny(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
 def _sigma_steep(factor: np.ndarray, at: Steep, pairs: bool) -> np.ndarray:
     fall = np.exp(-at.x)
     if pairs:
-        deep = ((at.points.u < 0.0) & (at.x > SMALL_EXPONENT)).nonzero()[0]
+        deep = ((at.x > SMALL_EXPONENT) & ((at.points.u < 0.0) | (at.x < LIT_EXPONENT))).nonzero()[0]
         if deep.size:
             fall[deep] -= fall[deep] * regions.round_off(at.at(deep))
     return fall * factor + np.maximum(at.points.u, 0.0) * at.mean

@@ -53,7 +53,8 @@ def elementwise(
     """Broadcast the named arguments, run `core` on blocks of vectors of `dtype`, and return its values in their shape.
 
     `core` gets one vector an argument, all of one length, and must neither change them nor keep them; it answers
-    with NaN where an argument is outside its domain. Floating-point warnings are off while it runs.
+    with NaN where an argument is outside its domain. Floating-point warnings are off while it runs. Arguments are
+    rounded to `dtype` first, Python's numbers beside arrays of float32 as well.
 
     >>> elementwise(lambda x, y: x + y, x=1, y=[2, 3.5])
     array([3. , 4.5])
@@ -79,24 +80,26 @@ def elementwise_tuple(
     shape = common_shape(dict(zip(arguments, arrays, strict=True)))
     results = [np.empty(shape, single) for _ in range(outputs)]
     access: Any = [("readonly",)] * len(arrays) + [("writeonly", "no_broadcast")] * outputs
-    blocks = np.nditer(
-        (*arrays, *results),
-        flags=("external_loop", "buffered", "zerosize_ok"),
-        op_flags=access,
-        op_dtypes=(dtype,) * (len(arrays) + outputs),
-        casting="same_kind",
-        # A buffer is as large as it is asked for, whatever it will hold.
-        buffersize=min(block, max(math.prod(shape), 1)),
-    )
-    with np.errstate(all="ignore"), blocks:
+    # The first block is cast as soon as there is an iterator, and may overflow.
+    with np.errstate(all="ignore"):
+        blocks = np.nditer(
+            (*arrays, *results),
+            flags=("external_loop", "buffered", "zerosize_ok"),
+            op_flags=access,
+            op_dtypes=(dtype,) * (len(arrays) + outputs),
+            casting="same_kind",
+            # A buffer is as large as it is asked for, whatever it will hold.
+            buffersize=min(block, max(math.prod(shape), 1)),
+        )
         np.setbufsize(BUFFER)
-        for parts in blocks:
-            vectors, outs = parts[: len(arrays)], parts[len(arrays) :]
-            # Without a cast the buffer is skipped, and a block may then be the whole array.
-            for start in range(0, outs[0].size, block):
-                part = slice(start, start + block)
-                for out, value in zip(outs, core(*(vector[part] for vector in vectors)), strict=True):
-                    out[part] = value
+        with blocks:
+            for parts in blocks:
+                vectors, outs = parts[: len(arrays)], parts[len(arrays) :]
+                # Without a cast the buffer is skipped, and a block may then be the whole array.
+                for start in range(0, outs[0].size, block):
+                    part = slice(start, start + block)
+                    for out, value in zip(outs, core(*(vector[part] for vector in vectors)), strict=True):
+                        out[part] = value
     return tuple(result[()] for result in results)
 
 
