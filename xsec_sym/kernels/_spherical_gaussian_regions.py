@@ -111,11 +111,28 @@ def mean_cosine(kit: Kit, kappa: np.ndarray, pale: bool = False) -> np.ndarray:
     return (1.0 - 1.0 / kappa) + 2.0 / np.expm1(2.0 * kappa)
 
 
-def pale_cosine(kit: Kit, alpha: np.ndarray) -> np.ndarray:
+class Inverse(NamedTuple):
+    """alpha^2 and kappa as pairs."""
+
+    a: Any
+    a_low: Any
+    kappa: Any
+    kappa_low: Any
+
+    def at(self, chosen: slice) -> "Inverse":
+        return Inverse(*(part[chosen] for part in self))
+
+
+def inverse(alpha: Any) -> Inverse:
+    a, a_low = two_square(alpha)
+    return Inverse(a, a_low, *quotient(2.0, 0.0, a, a_low))
+
+
+def pale_cosine(kit: Kit, alpha: Any, known: Inverse | None = None) -> Any:
     """The same for kappa < PALE, with pairs rounded once: else sigma's odd part might be a place further off."""
     if not kit.pairs:
         return mean_cosine(kit, 2.0 / (alpha * alpha), pale=True)
-    kappa, kappa_low = quotient(2.0, 0.0, *two_square(alpha))
+    _, _, kappa, kappa_low = known or inverse(alpha)
     x = kappa * kappa * (2.0 / tables.EVEN_Y[-1]) - 1.0
     *rest, first = kit.mean_cosine
     ratio, ratio_low = quick_two_sum(first, x * horner(rest, x))
@@ -124,12 +141,11 @@ def pale_cosine(kit: Kit, alpha: np.ndarray) -> np.ndarray:
     return mean + (low + kappa * ratio_low + ratio * kappa_low * (1.0 - 0.1 * kappa * kappa))
 
 
-def steep_cosine(kit: Kit, p: Points) -> np.ndarray:
+def steep_cosine(kit: Kit, p: Points, known: Inverse | None = None) -> Any:
     """The same for kappa > PALE, where a pair gives 1/kappa = a/2 at once."""
     if not kit.pairs:
         return mean_cosine(kit, p.kappa)
-    a, a_low = two_square(p.alpha)
-    kappa, kappa_low = quotient(2.0, 0.0, a, a_low)
+    a, a_low, kappa, kappa_low = known or inverse(p.alpha)
     beyond = 2.0 / np.expm1(2.0 * kappa)
     beyond -= kappa_low * beyond * (2.0 + beyond)
     most, low = quick_two_sum(1.0, -0.5 * a)
@@ -189,7 +205,7 @@ class Region(NamedTuple):
     """
 
     variables: Callable[[Points], tuple[Any, Any]]
-    factor: Callable[[Kit, np.ndarray, Steep], np.ndarray] | None = None
+    factor: Callable[[Kit, Any, Steep], Any] | None = None
     along: bool = False
 
     def steep(self, kit: Kit, p: Points) -> Steep:
@@ -215,7 +231,8 @@ def round_off(at: Steep) -> np.ndarray:
     """What the exponent x lacks: exp(-x) has the relative error x eps if x is rounded once."""
     v, along = at.points.v, at.along
     d, d_low = two_square(at.points.alpha)
-    n, n_low = v, np.zeros_like(v)
+    n: Any = v
+    n_low: Any = 0.0
     if along is not True:
         # 2 v^2/(alpha^2 (1 + s)), where s is a pair as well: 1 - v^2 is exact to 106 bits of 1.
         w, w_low = two_square(v)

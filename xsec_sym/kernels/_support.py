@@ -80,8 +80,14 @@ def elementwise_tuple(
     shape = common_shape(dict(zip(arguments, arrays, strict=True)))
     results = [np.empty(shape, single) for _ in range(outputs)]
     access: Any = [("readonly",)] * len(arrays) + [("writeonly", "no_broadcast")] * outputs
+    plain = all(array.shape == shape and array.dtype == dtype and array.flags.carray for array in arrays)
     # The first block is cast as soon as there is an iterator, and may overflow.
     with np.errstate(all="ignore"):
+        if plain and single == dtype and results[0].size <= block:
+            np.setbufsize(BUFFER)
+            for out, value in zip(results, core(*(array.reshape(-1) for array in arrays)), strict=True):
+                out.reshape(-1)[:] = value
+            return tuple(result[()] for result in results)
         blocks = np.nditer(
             (*arrays, *results),
             flags=("external_loop", "buffered", "zerosize_ok"),
@@ -117,15 +123,15 @@ def scalar(x: np.ndarray) -> float:
     return x.item() if x.dtype == np.float64 else x[0]
 
 
-def horner(coefficients: Collection[float], x: np.ndarray) -> np.ndarray:
-    """The polynomial with these coefficients, highest power first."""
+def horner(coefficients: Collection[float], x: Any) -> Any:
+    """The polynomial with these coefficients, highest power first, of an array or of a float."""
     first, *rest = coefficients
-    if x.size == 1:
+    if isinstance(x, float) or x.size == 1:
         # The same products and sums, without a call for each.
-        one, sum_ = scalar(x), first
+        one, sum_ = x if isinstance(x, float) else scalar(x), first
         for coefficient in rest:
             sum_ = sum_ * one + coefficient
-        return np.full_like(x, sum_)
+        return sum_ if isinstance(x, float) else np.full_like(x, sum_)
     total = np.full_like(x, first)
     for coefficient in rest:
         total *= x
