@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
-.PHONY: verify verify-fresh test test-newest lint bench chart walk report notebooks lab generate clean
+.PHONY: verify verify-fresh test test-deep test-newest lint bench chart walk report notebooks lab generate clean
 
 $(READY): pyproject.toml constraints.txt
 	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed") if sys.version_info < (3, 11) else None'
@@ -22,6 +22,8 @@ lint: $(READY)
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
+# Where the record is up to date, verdicts are replayed; where it is not, they are earned anew, which takes longer:
+# record first, by `xsec verify --fresh --record`.
 test: lint
 	$(BIN)/python -m pytest
 
@@ -39,6 +41,9 @@ test-newest:
 	$(NEWEST) -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	$(NEWEST) -m pip list --disable-pip-version-check | grep -iE '^(sympy|mpmath|numpy|scipy|gmpy2|python-flint|numba) '
 	$(NEWEST) -m pytest -W default $(TESTS)
+# The same, with every verdict earned anew, and with the tests that repeat at more points what a quicker one shows.
+test-deep: lint
+	$(BIN)/python -m pytest --deep
 
 bench: $(READY)
 	$(BIN)/python -m tests.bench

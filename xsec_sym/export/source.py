@@ -6,6 +6,7 @@ import ast
 import builtins
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -59,6 +60,12 @@ class _Module:
                 self.imports[bound] = f"from {node.module} import {alias.name}{renamed}"
 
 
+@lru_cache(maxsize=64)
+def _parsed(name: str, text: str) -> _Module:
+    """Every module that is cut out needs the same few, which take long to parse."""
+    return _Module(name, text)
+
+
 def _bound(node: ast.stmt) -> list[str]:
     if isinstance(node, ast.FunctionDef | ast.ClassDef):
         return [node.name]
@@ -97,7 +104,7 @@ class Cutting:
             spec = find_spec(name)
             if spec is None or not spec.origin:
                 raise Entangled(f"there is no module {name}")
-            self._modules[name] = _Module(name, Path(spec.origin).read_text(encoding="utf-8"))
+            self._modules[name] = _parsed(name, Path(spec.origin).read_text(encoding="utf-8"))
         return self._modules[name]
 
     def _take(self, module: _Module, name: str) -> None:
