@@ -27,6 +27,10 @@ lint: $(READY)
 test: lint
 	$(BIN)/python -m pytest
 
+# The same, with every verdict earned anew, and with the tests that repeat at more points what a quicker one shows.
+test-deep: lint
+	$(BIN)/python -m pytest --deep
+
 # The suite with the newest releases, whatever the pins say, to see what the next ones will break: a set-up of its own,
 # where warnings are shown but are no errors. `make test-newest PRE=--pre` takes pre-releases, `PAST=mpmath==1.4.1` what
 # the newest SymPy does not allow, and `TESTS=tests/kernels` a part of the suite.
@@ -41,9 +45,6 @@ test-newest:
 	$(NEWEST) -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	$(NEWEST) -m pip list --disable-pip-version-check | grep -iE '^(sympy|mpmath|numpy|scipy|gmpy2|python-flint|numba) '
 	$(NEWEST) -m pytest -W default $(TESTS)
-# The same, with every verdict earned anew, and with the tests that repeat at more points what a quicker one shows.
-test-deep: lint
-	$(BIN)/python -m pytest --deep
 
 bench: $(READY)
 	$(BIN)/python -m tests.bench
