@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
-.PHONY: verify verify-fresh test test-newest lint bench chart walk report notebooks lab generate clean
+.PHONY: verify verify-fresh test test-deep test-newest lint bench chart walk report notebooks lab generate clean
 
 $(READY): pyproject.toml constraints.txt
 	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed") if sys.version_info < (3, 11) else None'
@@ -22,8 +22,14 @@ lint: $(READY)
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
+# Where the record is up to date, verdicts are replayed; where it is not, they are earned anew, which takes longer:
+# record first, by `xsec verify --fresh --record`.
 test: lint
 	$(BIN)/python -m pytest
+
+# The same, with every verdict earned anew, and with the tests that repeat at more points what a quicker one shows.
+test-deep: lint
+	$(BIN)/python -m pytest --deep
 
 # The suite with the newest releases, whatever the pins say, to see what the next ones will break: a set-up of its own,
 # where warnings are shown but are no errors. `make test-newest PRE=--pre` takes pre-releases, `PAST=mpmath==1.4.1` what

@@ -9,10 +9,10 @@ from sympy import Rational, lambdify, symbols
 
 from derivations.deon2016 import dirac_ring, spherical_gaussian  # noqa: F401  (their lemmas)
 from derivations.deon2021 import characteristic, coefficients, fourier, h_equation, phase, sampling, scope
+from tests.earned import earned
 from xsec_sym.exact import PhaseLambertSphere
 from xsec_sym.proof.claim import REGISTRY
 from xsec_sym.proof.digits import value
-from xsec_sym.proof.verify import verify
 
 OTHERWISE = {
     **dict.fromkeys(("deon2021:1.1", "deon2021:5", "deon2021:11", "deon2021:14", "deon2021:34"), "misprint"),
@@ -47,8 +47,8 @@ TESTED = [c for c in ALL if c.kind not in ("definition", "out-of-scope", "whole"
 
 
 @pytest.mark.parametrize("claim", TESTED, ids=lambda c: c.id)
-def test_every_line_has_its_verdict(claim):
-    verdict = verify(claim, REGISTRY)
+def test_every_line_has_its_verdict(claim, deep):
+    verdict = earned(claim, deep=deep)
     assert verdict.verdict == OTHERWISE.get(claim.id, "proved"), verdict.note
     assert verdict.mutants >= 8
 

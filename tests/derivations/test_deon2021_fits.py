@@ -9,12 +9,12 @@ import pytest
 from sympy import Float
 
 from derivations.deon2021 import fast, h_fits, maps, modes
+from tests.earned import earned
 from xsec_sym.exact import bond, three_terms
 from xsec_sym.exact.solved import HLambertSphere, ModeConstant, ModeLambertSphere, SampledCosine, Solved
 from xsec_sym.proof import wire
 from xsec_sym.proof.claim import REGISTRY
 from xsec_sym.proof.values import compiled
-from xsec_sym.proof.verify import verify
 
 # verdict, largest error found, error of the print
 EXPECTED = {
@@ -54,9 +54,9 @@ TEN = 1e-10
 
 
 @pytest.mark.parametrize("name", EXPECTED)
-def test_the_verdict_and_its_figures(name):
+def test_the_verdict_and_its_figures(name, deep):
     word, size, of_print = EXPECTED[name]
-    verdict = verify(REGISTRY[name], REGISTRY, seed=5)
+    verdict = earned(REGISTRY[name], deep=deep, seed=5)
     assert verdict.verdict == word, verdict.note
     assert float(verdict.evidence["largest error found"]) == pytest.approx(size, rel=6e-3, abs=TEN)
     assert verdict.mutants >= 8 and verdict.evidence["digits agreed on"] >= 10
@@ -72,8 +72,8 @@ def test_every_measured_claim_has_an_expected_verdict():
     assert made == {*EXPECTED, "deon2021:claim.reciprocal"}
 
 
-def test_the_model_is_reciprocal():
-    verdict = verify(REGISTRY["deon2021:claim.reciprocal"], REGISTRY)
+def test_the_model_is_reciprocal(deep):
+    verdict = earned(REGISTRY["deon2021:claim.reciprocal"], deep=deep)
     assert verdict.verdict == "claim-holds" and verdict.evidence["proof"] and verdict.mutants >= 8
 
 

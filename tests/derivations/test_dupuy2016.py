@@ -11,9 +11,9 @@ from sympy import lambdify
 from derivations.deon2016 import beckmann, dirac_ring, ggx  # noqa: F401  (their lemmas)
 from derivations.dupuy2016 import free_path, heights, projected_area, smith, volume
 from derivations.extensions import heights as project
+from tests.earned import earned
 from xsec_sym.proof.claim import REGISTRY
 from xsec_sym.proof.verdict import worst
-from xsec_sym.proof.verify import verify
 
 FAILING = ("balance", "asymmetric", "albedo", "any-free-path", "visible-from", "condition-suffices", "figure5-right")
 OTHERWISE = {
@@ -32,8 +32,8 @@ def expected(claim):
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda c: c.id)
-def test_every_line_has_its_verdict(claim):
-    verdict = verify(claim, REGISTRY)
+def test_every_line_has_its_verdict(claim, deep):
+    verdict = earned(claim, deep=deep)
     assert verdict.verdict == expected(claim), verdict.note
     assert claim.kind in ("definition", "out-of-scope") or verdict.verdict == "claim-fails" or verdict.mutants >= 8
 

@@ -11,13 +11,12 @@ from sympy import Rational
 from derivations.deon2016 import flat_limit, gaussian_text, table1  # noqa: F401  (their lemmas)
 from derivations.dupuy2016 import half_space, spherical_ndf
 from derivations.extensions import flakes, isotropic_half_space, spherical_gaussian  # noqa: F401
+from tests.earned import earned
 from xsec_sym.exact import HIsotropic, HMoment, HTransform
 from xsec_sym.exact.half_space_balls import LEVELS, moment, transform, value
 from xsec_sym.proof import digits
 from xsec_sym.proof.ball_compile import precision
 from xsec_sym.proof.balls import enclose
-from xsec_sym.proof.claim import REGISTRY
-from xsec_sym.proof.verify import verify
 
 OTHERWISE = {
     "dupuy2016:25": "misprint",
@@ -42,8 +41,8 @@ def expected(claim):
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda c: c.id)
-def test_every_line_has_its_verdict(claim):
-    verdict = verify(claim, REGISTRY)
+def test_every_line_has_its_verdict(claim, deep):
+    verdict = earned(claim, deep=deep)
     assert verdict.verdict == expected(claim), verdict.note
     assert verdict.verdict != "confirmed" or verdict.digits >= 30
     assert verdict.verdict == "claim-fails" or verdict.mutants >= 8

@@ -9,9 +9,9 @@ from sympy import Rational, pi
 from derivations.deon2016 import dirac_ring, ggx, table1  # noqa: F401  (their lemmas)
 from derivations.dupuy2016 import reciprocity as section
 from derivations.extensions import reciprocity, reciprocity_examples, spherical_gaussian  # noqa: F401
+from tests.earned import earned
 from xsec_sym.exact import reciprocity as exact
 from xsec_sym.proof.claim import REGISTRY
-from xsec_sym.proof.verify import verify
 
 FAILS = {"figure-6.non-symmetric", "equal-heights", "height-field"}
 ASKED = {"open-question", "other-interpretation", "information", "surface-like", "voxels"}
@@ -29,8 +29,8 @@ def expected(claim):
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda c: c.id)
-def test_every_statement_has_its_verdict(claim):
-    verdict = verify(claim, REGISTRY)
+def test_every_statement_has_its_verdict(claim, deep):
+    verdict = earned(claim, deep=deep)
     assert verdict.verdict == expected(claim), verdict.note
     if verdict.verdict == "claim-holds":
         assert verdict.evidence["statement"] == "proved"

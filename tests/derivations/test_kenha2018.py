@@ -9,11 +9,10 @@ from sympy import Symbol, cos, pi, sin, symbols, tan
 from derivations.deon2016 import dirac_ring  # noqa: F401  (its lemmas)
 from derivations.extensions import revolution
 from derivations.kenha2018 import ellipsoid, surface
+from tests.earned import earned
 from xsec_sym.exact.revolution import normals_of
-from xsec_sym.proof.claim import REGISTRY
 from xsec_sym.proof.domain import Domain, interval
 from xsec_sym.proof.piece import Piece
-from xsec_sym.proof.verify import verify
 
 OTHERWISE = {
     "kenha2018:2": "misprint",
@@ -31,8 +30,8 @@ CLAIMS = [c for s in (surface.paper, ellipsoid.paper, revolution.project) for c 
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda c: c.id)
-def test_every_line_has_its_verdict(claim):
-    verdict = verify(claim, REGISTRY)
+def test_every_line_has_its_verdict(claim, deep):
+    verdict = earned(claim, deep=deep)
     assert verdict.verdict == OTHERWISE.get(claim.id, "proved"), verdict.note
     assert claim.kind in ("definition", "out-of-scope") or verdict.verdict == "claim-fails" or verdict.mutants >= 8
 

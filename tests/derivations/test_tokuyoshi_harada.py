@@ -10,12 +10,12 @@ from sympy import Rational
 
 from derivations.extensions import ellipsoidal_integral, ellipsoidal_lobe, half_angle
 from derivations.tokuyoshi_harada import ellipsoid, lobe, spheroid
+from tests.earned import earned
 from xsec_sym.proof.claim import REGISTRY
 from xsec_sym.proof.regular import Refused
 from xsec_sym.proof.rules import start
 from xsec_sym.proof.say import said
 from xsec_sym.proof.steps import Step, derive
-from xsec_sym.proof.verify import verify
 
 PAPER = (spheroid, ellipsoid, lobe)
 PROJECT = (half_angle, ellipsoidal_lobe, ellipsoidal_integral)
@@ -50,9 +50,9 @@ def test_every_claim_with_a_form_has_a_proof(name):
 
 
 @pytest.mark.parametrize("name", ["ssl", "claim.spheroid", "r.xy", "p.prime.matrix.z", "t.1", "t.4", "t.5", "3", "K.U"])
-def test_verdicts(name):
+def test_verdicts(name, deep):
     words = {"p.prime.matrix.z": "misprint", "t.1": "misprint", "t.4": "misprint", "claim.spheroid": "claim-holds"}
-    verdict = verify(REGISTRY[f"tokuyoshi_harada:{name}"], REGISTRY)
+    verdict = earned(REGISTRY[f"tokuyoshi_harada:{name}"], deep=deep)
     assert verdict.verdict == words.get(name, "proved"), verdict.note
     assert verdict.mutants >= 8 and verdict.evidence["proof"]
 

@@ -83,6 +83,20 @@ def test_a_table_that_is_nowhere_near_has_no_bound():
     assert bounds.rounded_up(arb("inf")) == float("inf")
 
 
+@pytest.mark.parametrize(("name", "i"), [("RIM", 0), ("RIM", 1), ("EDGE", 2)])
+def test_errors_count_relative_to_sigma_itself_at_the_rim(name, i):
+    """Of which q has more, by what lies beyond t = 1: 0.3 % at kappa = 8 and u = -1."""
+    x, y = bounds.spans(name, REGIONS[name].cells()[i])[0]
+    with precision(functions.BITS), mp.workdps(30):
+        scales = bounds._scales(name, made(name, i)[""], x, y)
+        for row, column in ((0, 0), (127, 0), (64, 0), (0, 64), (127, 127)):
+            here, there = x.place(bounds.boxes(128)[row]).mid(), y.place(bounds.boxes(128)[column]).mid()
+            ks, kappa = (here, 2 / there.sqrt()) if name == "RIM" else (1 / here, 1 / (here * there.sqrt()))
+            s, factor = ks / kappa, 1 if name == "RIM" else ks.sqrt()
+            whole = functions.enclosed((1 - s * s).sqrt(), s, kappa) * (1 - (-2 * kappa).exp()) * kappa * factor
+            assert scales[row][column].lower() <= whole * arb("1.000000000000001")
+
+
 def test_the_generator_leaves_out_less_where_the_bound_is_exceeded(monkeypatch):
     cell = REGIONS["EVEN"].cells()[0]
     with precision(generator.BITS), mp.workdps(generator.DIGITS):

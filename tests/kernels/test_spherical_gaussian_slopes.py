@@ -27,9 +27,9 @@ EPS = np.finfo(float).eps
 RELATIVE = 8 * EPS
 KERNELS = [sigma_spherical_gaussian_du, sigma_spherical_gaussian_dalpha]
 both = pytest.mark.parametrize("kernel", KERNELS)
-# One cell of each region, and of the derivative by u where the other is of kappa.
-PART = [("U_", "EVEN", 1), ("KAPPA_", "ROUND", 6), ("U_", "LAYER", 1), ("KAPPA_", "LAYER", 8), ("U_", "RIM", 0)]
-PART += [("KAPPA_", "EDGE", 2)]
+# One cell of each region, of either derivative; the layer by u, too, where there is time.
+PART = [("U_", "EVEN", 1), ("KAPPA_", "ROUND", 6), ("KAPPA_", "LAYER", 8), ("U_", "RIM", 0), ("KAPPA_", "EDGE", 2)]
+PART += [pytest.param("U_", "LAYER", 1, marks=pytest.mark.deep)]
 
 
 def worst(kernel, u, alpha):

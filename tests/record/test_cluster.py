@@ -57,6 +57,6 @@ def test_a_worker_that_dies_loses_nothing(cluster, monkeypatch):
 
 def test_references_of_a_study_on_the_cluster(cluster):
     with spread(cluster.scheduler_address):
-        there = right(registered("sigma_spherical_gaussian").quantity, "", POINTS, jobs=-1)
-    here = right(registered("sigma_spherical_gaussian").quantity, "", POINTS)
+        there = right(registered("sigma_beckmann").quantity, "", POINTS, jobs=-1)
+    here = right(registered("sigma_beckmann").quantity, "", POINTS)
     assert (there.high == here.high).all() and (there.low == here.low).all()

@@ -6,8 +6,11 @@ import contextlib
 import re
 import textwrap
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import cache
 from typing import Any
+
+from sympy import Integer, Rational, oo
 
 from xsec_sym.export.floats import SPECIAL
 from xsec_sym.export.kernel import VERIFIED, Branch, Refusal, branches, core, named, python_names
@@ -16,6 +19,7 @@ from xsec_sym.export.printer import Unprintable, missing
 from xsec_sym.export.recipes import GENERATED, RECIPES, Recipe
 from xsec_sym.export.source import Cutting, Entangled, joined
 from xsec_sym.export.special import bessels
+from xsec_sym.proof.domain import Domain, Interval
 from xsec_sym.record.entry import Entry
 from xsec_sym.record.store import Ledger, nearest
 
@@ -29,6 +33,12 @@ HEAD = (
 )
 # Points for a function that is exported once; the generated kernels are measured at more.
 QUICK = 200
+# Forms that divide what cancels by powers of a variable: its name, and the range where digits are left of the quotient.
+# (41) needs the sign of (42) alone outside the layer, and its size only where that is small.
+KEPT_DIGITS = {
+    "deon2016:41": ("m", Rational(1, 10**6), oo),
+    "deon2016:42": ("m", Rational(1, 10**3), Integer(1000)),
+}
 Record = Mapping[str, Entry]
 Errors = tuple[float, float]
 
@@ -93,7 +103,25 @@ def _branches(entry: Entry, record: Record) -> list[Branch]:
     alike = [s.name for s in symbols.values()]
     if len(set(alike)) < len(alike):
         raise Refusal(f"{entry.id} has two variables of one name, and cannot be a function of {', '.join(alike)}")
-    return [named(b, symbols) for b in found]
+    return [_with_digits(entry, named(b, symbols)) for b in found]
+
+
+def _with_digits(entry: Entry, branch: Branch) -> Branch:
+    """Where the form keeps digits; beyond, no wrong number is given."""
+    if entry.id not in KEPT_DIGITS:
+        return branch
+    name, low, high = KEPT_DIGITS[entry.id]
+
+    def narrow(domain: Domain) -> Domain:
+        variables = [
+            Interval(v.symbol, max(v.low, low), min(v.high, high), v.low > low, v.high <= high and v.high_open)
+            if isinstance(v, Interval) and v.symbol.name == name
+            else v
+            for v in domain.variables
+        ]
+        return Domain(tuple(variables), domain.conditions, domain.instances)
+
+    return replace(branch, domain=narrow(branch.domain), within=narrow(branch.within))
 
 
 # --- generated functions -----------------------------------------------------------------------------------
@@ -146,6 +174,11 @@ def _docstring(
         infinite = ", ".join(sorted({b.domain.text() for b in found if b.form.is_infinite}))
         title = f"{entry.title[:1].upper()}{entry.title[1:]}."
         more = f"{entry.reading}. " * bool(entry.reading) + f"Infinite for {infinite}." * bool(infinite)
+        if entry.id in KEPT_DIGITS:
+            more += (
+                f"The equation holds for {entry.where.text()}; beyond the range below, what it divides by powers of "
+                f"{KEPT_DIGITS[entry.id][0]} cancels to nothing, or a power leaves the range of numbers."
+            )
         ranges = f"{', '.join(arguments)}: real numbers, {_where(found)}"
     bounds = ""
     if any(b.within.conditions for b in found):

@@ -6,7 +6,7 @@ import ast
 import builtins
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from functools import cache
+from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -60,20 +60,17 @@ class _Module:
                 self.imports[bound] = f"from {node.module} import {alias.name}{renamed}"
 
 
+@lru_cache(maxsize=64)
+def _parsed(name: str, text: str) -> _Module:
+    """Every module that is cut out needs the same few, which take long to parse."""
+    return _Module(name, text)
+
+
 def _bound(node: ast.stmt) -> list[str]:
     if isinstance(node, ast.FunctionDef | ast.ClassDef):
         return [node.name]
     targets = node.targets if isinstance(node, ast.Assign) else [node.target] if isinstance(node, ast.AnnAssign) else []
     return [n.id for target in targets for n in ast.walk(target) if isinstance(n, ast.Name)]
-
-
-@cache
-def _of_file(name: str) -> _Module:
-    """Read once: the report cuts hundreds of entries out of the same few."""
-    spec = find_spec(name)
-    if spec is None or not spec.origin:
-        raise Entangled(f"there is no module {name}")
-    return _Module(name, Path(spec.origin).read_text(encoding="utf-8"))
 
 
 class Cutting:
@@ -104,7 +101,10 @@ class Cutting:
 
     def _module(self, name: str) -> _Module:
         if name not in self._modules:
-            self._modules[name] = _of_file(name)
+            spec = find_spec(name)
+            if spec is None or not spec.origin:
+                raise Entangled(f"there is no module {name}")
+            self._modules[name] = _parsed(name, Path(spec.origin).read_text(encoding="utf-8"))
         return self._modules[name]
 
     def _take(self, module: _Module, name: str) -> None:

@@ -22,7 +22,8 @@ What is left to know is how large each region's function is for complex variable
   Re v is harmonic in s^2 and b subharmonic, so that Re v - b is least on a boundary.
 
 Errors count relative to sigma(-v), as a region's function gives it: EVEN less c v/2, LAYER with kappa times its layer,
-the others as they are. A table has no values below its polynomial's, less the bound itself.
+RIM and EDGE less what lies beyond T = kappa, ROUND as it is. A table has no values below its polynomial's, less the
+bound itself.
 
 What is proved is proved for all arguments in a cell, with two exceptions: LAYER's first row reaches alpha^2 = 0 and
 EDGE's first column 1/(kappa s) = 0, where both are smooth but singular, and h its t = 0, which is z = inf. They are cut
@@ -238,7 +239,26 @@ def _flat(shifted: arb, alpha_square: arb) -> arb:
     return (kappa.lower() - 1) / 2 * (1 + s.lower()).sqrt() * half_layer(z)
 
 
-MORE: dict[str, Callable[[arb, arb], arb]] = {"EVEN": _less_odd, "LAYER": _flat}
+def _surplus(kappa: arb) -> arb:
+    """-kappa v (1 + 1/kappa) exp(-kappa (1 + s)), at least, which is subtracted from q."""
+    return -(kappa + 1) * (-kappa).exp()
+
+
+def _less_surplus_near(ks: arb, alpha_fourth: arb) -> arb:
+    return _surplus((2 / alpha_fourth.upper().sqrt()).lower())
+
+
+def _less_surplus_far(inverse: arb, s_square: arb) -> arb:
+    ks = 1 / inverse.lower()
+    return _surplus((1 / inverse.upper() / s_square.upper().sqrt()).lower()) * ks.sqrt()
+
+
+MORE: dict[str, Callable[[arb, arb], arb]] = {
+    "EVEN": _less_odd,
+    "LAYER": _flat,
+    "RIM": _less_surplus_near,
+    "EDGE": _less_surplus_far,
+}
 
 
 # --- the tables --------------------------------------------------------------------------------------------

@@ -31,6 +31,8 @@ class Patches:
         middles = 0.5 * (edges[:, 1] + edges[:, 0]), 0.5 * (edges[:, 3] + edges[:, 2])
         scales = 2.0 / (edges[:, 1] - edges[:, 0]), 2.0 / (edges[:, 3] - edges[:, 2])
         self.middles, self.scales = np.array(middles, dtype), np.array(scales, dtype)
+        # By cell, of either variable.
+        self.places = np.stack([self.middles, self.scales]).transpose(2, 1, 0).tolist()
         # For every power of x, highest first, its coefficient in the rows that have it, which come first.
         self.columns = [
             [
@@ -46,13 +48,10 @@ class Patches:
 
     def cell(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """The number of the cell of each point."""
-        number = np.zeros(x.shape, np.uint8)
-        for edge in self.y:
-            number += (y > edge).view(np.uint8)
+        number = _passed(self.y, y)
         if self.across > 1:
             number *= np.uint8(self.across)
-        for edge in self.x:
-            number += (x > edge).view(np.uint8)
+            number += _passed(self.x, x)
         return number
 
     def cell_of_one(self, x: float, y: float) -> int:
@@ -60,10 +59,10 @@ class Patches:
 
     def __call__(self, x: np.ndarray, y: np.ndarray, cell: int) -> np.ndarray:
         """At points of one cell."""
+        if y.size == 1:
+            return np.full_like(y, self.one(scalar(x), scalar(y), cell))
         x = (x - self.middles[0, cell]) * self.scales[0, cell]
         y = (y - self.middles[1, cell]) * self.scales[1, cell]
-        if y.size == 1:
-            return np.full_like(y, self._one(scalar(x), scalar(y), cell))
         columns = self.columns[cell]
         rows = np.empty((len(columns[-1]), y.size), y.dtype)
         done = 0
@@ -75,8 +74,10 @@ class Patches:
             done = more
         return _sum(rows, y)
 
-    def _one(self, x: float, y: float, cell: int) -> float:
-        """The same products and sums, without a call for each."""
+    def one(self, x: float, y: float, cell: int) -> float:
+        """The same products and sums at a single point, without a call for each."""
+        (middle, scale), (centre, height) = self.places[cell]
+        x, y = (x - middle) * scale, (y - centre) * height
         total = 0.0
         for row in self.lists[cell]:
             part = 0.0
@@ -120,6 +121,17 @@ class Joined:
             active *= x[: end - start]
             active += own[start:end]
         return _sum(rows, y)
+
+
+def _passed(edges: list[float], x: np.ndarray) -> np.ndarray:
+    """How many of the edges x is beyond."""
+    if not edges:
+        return np.zeros(x.shape, np.uint8)
+    first, *rest = edges
+    number = (x > first).view(np.uint8)
+    for edge in rest:
+        number += (x > edge).view(np.uint8)
+    return number
 
 
 def _sum(rows: np.ndarray, y: np.ndarray) -> np.ndarray:

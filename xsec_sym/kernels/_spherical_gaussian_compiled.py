@@ -39,7 +39,7 @@ ODD, FAINT, BARE, BINS = 34, 35, 36, 37
 SMALLEST, FAINT_ENDS = regions.PRECISE.smallest, regions.PRECISE.faint
 SHRUNK = core.SHRUNK
 DARK_ENDS, LIT_ENDS = regions.PRECISE.dark_ends, regions.PRECISE.lit_ends
-NEARLY_FACING = core.NEARLY_FACING
+NEARLY_FACING, LIT_EXPONENT = core.NEARLY_FACING, core.LIT_EXPONENT
 PALE_ENDS, STEEP_STARTS, RIM_ENDS = regions.PALE, regions.STEEP, regions.RIM
 LIT, SHIFT, HALF = tables.LIT, tables.SHIFT, tables.HALF
 EVEN_SCALE = 2.0 / tables.EVEN_Y[-1]
@@ -58,9 +58,14 @@ def _sine(v):
 
 
 @jit_inside
-def _mean_cosine(kappa, double):
+def _steep_cosine(alpha, double):
     """For kappa above PALE_ENDS; double = exp(-2 kappa)."""
-    return (1.0 - 1.0 / kappa) + 2.0 * double / (1.0 - double)
+    a, a_low = two_prod(alpha, alpha)
+    _, kappa_low = quotient(2.0, 0.0, a, a_low)
+    beyond = 2.0 * double / (1.0 - double)
+    beyond -= kappa_low * beyond * (2.0 + beyond)
+    most = 1.0 - 0.5 * a
+    return most + (((1.0 - most) - 0.5 * a) - 0.5 * a_low + beyond)
 
 
 @jit_inside
@@ -166,7 +171,7 @@ def _dark(kit, cell, u, alpha, n, work, factor):
         horner(kit.half_layer, 0, len(kit.half_layer) // STEP, x, n, part)
         for i in range(n):
             a, z = alpha[i] * alpha[i], y[i]
-            mean, one = _mean_cosine(2.0 / a, double[i]), 1.0 + z
+            mean, one = _steep_cosine(alpha[i], double[i]), 1.0 + z
             flat = part[i] / (one * one) * (0.5 * mean * math.sqrt(1.0 + _sine(abs(u[i]))))
             factor[i] = (alpha[i] * math.sqrt(0.5)) * (flat + (0.5 * a) * factor[i])
     else:
@@ -194,10 +199,9 @@ def _steep(kit, along, u, alpha, n, work, value):
             v = abs(u[i])
             x[i] = _round_off_along(v, alpha[i], y[i]) if along else _round_off(v, alpha[i], y[i])
         for i in range(n):
-            part[i] -= part[i] * (x[i] if u[i] < 0.0 else 0.0)
+            part[i] -= part[i] * (x[i] if (u[i] < 0.0) | (y[i] < LIT_EXPONENT) else 0.0)
     for i in range(n):
-        mean = _mean_cosine(2.0 / (alpha[i] * alpha[i]), double[i])
-        value[i] = part[i] * value[i] + max(u[i], 0.0) * mean
+        value[i] = part[i] * value[i] + max(u[i], 0.0) * _steep_cosine(alpha[i], double[i])
 
 
 @jit
@@ -209,7 +213,7 @@ def _scaled_steep(along, u, alpha, n, double, value):
             # kappa v - w = 2 kappa v s/(1 + v + s)
             value[i] *= math.exp(-2.0 * kappa * v * s / (1.0 + v + s))
         if u[i] > 0.0:
-            value[i] = value[i] * math.exp(-_exponent(v, s, alpha[i])) + u[i] * _mean_cosine(kappa, double[i])
+            value[i] = value[i] * math.exp(-_exponent(v, s, alpha[i])) + u[i] * _steep_cosine(alpha[i], double[i])
 
 
 @jit

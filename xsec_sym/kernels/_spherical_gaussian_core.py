@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,8 +20,8 @@ WHOLE, PART = 2**20, 2**19
 SHRUNK = -300
 # Up to here another call costs more than sorting.
 FEW = 2048
-# Below it the exponent needs no second part.
-SMALL_EXPONENT = 1.0
+# Below it the exponent needs no second part; nor from there on where what falls so is added to the odd part.
+SMALL_EXPONENT, LIT_EXPONENT = 1.0, 3.0
 # From this cosine on the logarithm is formed without 1 - (1 - x).
 NEARLY_FACING = 0.5
 
@@ -32,7 +32,7 @@ class Form(NamedTuple):
     alpha f(u/alpha); and for v = -u much larger than alpha.
     """
 
-    pale: Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
+    pale: Callable[[Any, Any, Any, Any], Any]
     bare: Callable[[np.ndarray, np.ndarray], np.ndarray]
     steep: Callable[[np.ndarray, Steep, bool], np.ndarray]
     of: Callable[[np.ndarray], np.ndarray]
@@ -45,14 +45,22 @@ def evaluate(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarr
     """`form` at vectors of cosines and of roughnesses of the kit's type; NaN outside their domain."""
     if u.size == 1:
         return _alone(kit, form, u, alpha)
-    value = np.empty_like(u)
     left, size = Left(kit.grid, u, alpha), PART // u.itemsize
+    if u.size <= size:
+        value = np.full_like(u, np.nan)
+        left.add(0, *_simple(kit, form, u, alpha, value))
+        return _with_left(kit, form, left, value)
+    value = np.empty_like(u)
     for start in range(0, u.size, size):
         part = slice(start, start + size)
         # Small enough for the cache, unlike `value`.
         near = np.full_like(u[part], np.nan)
         left.add(start, *_simple(kit, form, u[part], alpha[part], near))
         value[part] = near
+    return _with_left(kit, form, left, value)
+
+
+def _with_left(kit: Kit, form: Form, left: Left, value: np.ndarray) -> np.ndarray:
     if left.few:
         for joint in left.joint():
             _few(kit, form, joint, value)
@@ -65,17 +73,18 @@ def evaluate(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarr
 def _few(kit: Kit, form: Form, joint: Joint, value: np.ndarray) -> None:
     """The same operations, with as few calls as there may be."""
     pale, *steep = joint.inside
+    known = regions.inverse(joint.points.alpha) if kit.pairs else None
     p = joint.points.at(pale)
     if p.u.size:
-        odd = 0.5 * p.u * regions.pale_cosine(kit, p.alpha)
-        value[joint.places[pale]] = form.pale(p.u, p.kappa, joint.found[pale], odd)
+        odd = 0.5 * p.u * regions.pale_cosine(kit, p.alpha, known and known.at(pale))
+        value[joint.places[pale]] = form.pale(p.u, p.kappa, regions.even(kit, joint.found[pale], p.u), odd)
     rest = slice(pale.stop, steep[-1].stop)
     p = joint.points.at(rest)
     if p.u.size:
         x, along = regions.least_exponent(p), np.zeros(p.u.size, bool)
         first = slice(0, steep[0].stop - rest.start)
         x[first], along[first] = p.kappa[first] * p.v[first], True
-        at, factor = Steep(p, x, regions.mean_cosine(kit, p.kappa), along), np.empty_like(x)
+        at, factor = Steep(p, x, regions.steep_cosine(kit, p, known and known.at(rest)), along), np.empty_like(x)
         for region, inside in zip(regions.REGIONS[1:], steep, strict=True):
             if inside.start < inside.stop:
                 own = slice(inside.start - rest.start, inside.stop - rest.start)
@@ -88,7 +97,7 @@ def _made(kit: Kit, form: Form, region: Region, p: Points, found: np.ndarray) ->
     if region.factor:
         at = region.steep(kit, p)
         return form.steep(region.factor(kit, found, at), at, kit.pairs)
-    return form.pale(p.u, p.kappa, found, 0.5 * p.u * regions.pale_cosine(kit, p.alpha))
+    return form.pale(p.u, p.kappa, regions.even(kit, found, p.u), 0.5 * p.u * regions.pale_cosine(kit, p.alpha))
 
 
 def _alone(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
@@ -99,17 +108,33 @@ def _alone(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray
         a = rough * rough
         s = type(v)(math.sqrt((1.0 - v) * (1.0 + v)))
         one = Points(scalar(u), rough, v, s, a, 2.0 / a)
-        if one.kappa >= kit.faint:
+        if one.kappa >= (DIM if kit.dtype is np.float32 else kit.faint):
             w = one.kappa * (v * v) / (1.0 + s)
-            p = regions.points(u, alpha)
             if w > (kit.lit_ends if one.u > 0.0 else _dark_ends(kit, form)):
-                return form.bare(u, p.kappa)
+                return form.bare(u, np.full_like(u, one.kappa))
             i = regions.region_of_one(one)
-            region = regions.REGIONS[i]
-            cell = kit.grid.firsts[i] + kit.grid.parts[i].cell_of_one(*region.variables(one))
-            return _made(kit, form, region, p, kit.grid(*region.variables(p), cell))
+            region, (x, y) = regions.REGIONS[i], regions.REGIONS[i].variables(one)
+            cell = kit.grid.parts[i].cell_of_one(x, y)
+            if kit.dtype is np.float32:
+                p = regions.points(u, alpha)
+                return _made(kit, form, region, p, kit.grid(*region.variables(p), kit.grid.firsts[i] + cell))
+            return _made_of_numbers(kit, form, region, one, kit.grid.parts[i].one(x, y, cell), u, alpha)
     _simple(kit, form, u, alpha, value)
     return value
+
+
+def _made_of_numbers(
+    kit: Kit, form: Form, region: Region, one: Points, found: float, u: np.ndarray, alpha: np.ndarray
+) -> np.ndarray:
+    """Python's numbers are much faster than arrays of one."""
+    if not region.factor:
+        return np.full_like(u, form.pale(one.u, one.kappa, found, 0.5 * one.u * regions.pale_cosine(kit, one.alpha)))
+    at = region.steep(kit, one)
+    factor = region.factor(kit, found, at)
+    if form is SIGMA:
+        return np.full_like(u, _sigma_steep(factor, at, kit.pairs))
+    x, mean = np.full_like(u, at.x), np.full_like(u, at.mean)
+    return form.steep(np.full_like(u, factor), Steep(regions.points(u, alpha), x, mean, at.along), kit.pairs)
 
 
 def _dark_ends(kit: Kit, form: Form) -> float:
@@ -142,13 +167,13 @@ def _simple(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray, value: np.nd
         value[chosen] = form.pale(at, k, *_faint(at, k))
     known ^= bare
     known ^= faint
-    if u.size > FEW:
-        # Not worth sorting.
+    if u.size > FEW or kit.dtype is np.float32:
+        # Not worth sorting; and in float32 what is sorted is of more digits.
         dim = p.kappa < DIM
         dim &= known
         chosen = dim.nonzero()[0]
         at, k = u[chosen], p.kappa[chosen]
-        even = kit.grid(at * at, k * k, 0)
+        even = regions.even(kit, kit.grid(at * at, k * k, 0), at)
         value[chosen] = form.pale(at, k, even, 0.5 * at * regions.pale_cosine(kit, alpha[chosen]))
         known ^= dim
     return known.nonzero()[0], p
@@ -175,11 +200,14 @@ def _tiny(kit: Kit, form: Form, u: np.ndarray, alpha: np.ndarray) -> np.ndarray:
     return np.where((u > 0.0) | (alpha == 0.0), lit, dark)
 
 
-def _sigma_steep(factor: np.ndarray, at: Steep, pairs: bool) -> np.ndarray:
+def _sigma_steep(factor: Any, at: Steep, pairs: bool) -> Any:
     fall = np.exp(-at.x)
     if pairs:
-        deep = ((at.points.u < 0.0) & (at.x > SMALL_EXPONENT)).nonzero()[0]
-        if deep.size:
+        due = (at.x > SMALL_EXPONENT) & ((at.points.u < 0.0) | (at.x < LIT_EXPONENT))
+        if not isinstance(fall, np.ndarray):
+            fall -= fall * regions.round_off(at) if due else 0.0
+        elif due.any():
+            deep = due.nonzero()[0]
             fall[deep] -= fall[deep] * regions.round_off(at.at(deep))
     return fall * factor + np.maximum(at.points.u, 0.0) * at.mean
 

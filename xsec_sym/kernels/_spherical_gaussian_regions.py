@@ -18,6 +18,8 @@ from xsec_sym.kernels._support import horner, quick_two_sum, two_prod, two_squar
 # The bounds on kappa of the first two regions, and on kappa s of the two of the rim.
 PALE, STEEP, RIM = tables.EVEN_Y[-1] ** 0.5, tables.ROUND_Y[-1], tables.RIM_X[-1]
 NAMES = ("EVEN", "ROUND", "LAYER", "RIM", "EDGE")
+# What EVEN's polynomials leave out in float32: the odd part is subtracted from it, and would show its rounding.
+EVEN_MIDDLE = 0.25
 
 
 class Points(NamedTuple):
@@ -80,11 +82,11 @@ class Kit(NamedTuple):
 
 def grid(module: object, prefix: str, dtype: type[np.floating] = np.float64) -> Grid:
     """From tables whose names begin so."""
+    made = {name: getattr(module, prefix + name) for name in NAMES}
+    if dtype is np.float32:
+        made["EVEN"] = [[[row[0] - EVEN_MIDDLE, *row[1:]], *rest] for row, *rest in made["EVEN"]]
     return Grid(
-        [
-            Patches(getattr(tables, f"{name}_X"), getattr(tables, f"{name}_Y"), getattr(module, prefix + name), dtype)
-            for name in NAMES
-        ]
+        [Patches(getattr(tables, f"{name}_X"), getattr(tables, f"{name}_Y"), made[name], dtype) for name in NAMES]
     )
 
 
@@ -109,17 +111,50 @@ def mean_cosine(kit: Kit, kappa: np.ndarray, pale: bool = False) -> np.ndarray:
     return (1.0 - 1.0 / kappa) + 2.0 / np.expm1(2.0 * kappa)
 
 
-def pale_cosine(kit: Kit, alpha: np.ndarray) -> np.ndarray:
+class Inverse(NamedTuple):
+    """alpha^2 and kappa as pairs."""
+
+    a: Any
+    a_low: Any
+    kappa: Any
+    kappa_low: Any
+
+    def at(self, chosen: slice) -> "Inverse":
+        return Inverse(*(part[chosen] for part in self))
+
+
+def inverse(alpha: Any) -> Inverse:
+    a, a_low = two_square(alpha)
+    return Inverse(a, a_low, *quotient(2.0, 0.0, a, a_low))
+
+
+def pale_cosine(kit: Kit, alpha: Any, known: Inverse | None = None) -> Any:
     """The same for kappa < PALE, with pairs rounded once: else sigma's odd part might be a place further off."""
     if not kit.pairs:
         return mean_cosine(kit, 2.0 / (alpha * alpha), pale=True)
-    kappa, kappa_low = quotient(2.0, 0.0, *two_square(alpha))
+    _, _, kappa, kappa_low = known or inverse(alpha)
     x = kappa * kappa * (2.0 / tables.EVEN_Y[-1]) - 1.0
     *rest, first = kit.mean_cosine
     ratio, ratio_low = quick_two_sum(first, x * horner(rest, x))
     mean, low = two_prod(kappa, ratio)
     # c is as kappa^(1 - kappa^2/10), about.
     return mean + (low + kappa * ratio_low + ratio * kappa_low * (1.0 - 0.1 * kappa * kappa))
+
+
+def steep_cosine(kit: Kit, p: Points, known: Inverse | None = None) -> Any:
+    """The same for kappa > PALE, where a pair gives 1/kappa = a/2 at once."""
+    if not kit.pairs:
+        return mean_cosine(kit, p.kappa)
+    a, a_low, kappa, kappa_low = known or inverse(p.alpha)
+    beyond = 2.0 / np.expm1(2.0 * kappa)
+    beyond -= kappa_low * beyond * (2.0 + beyond)
+    most, low = quick_two_sum(1.0, -0.5 * a)
+    return most + (low - 0.5 * a_low + beyond)
+
+
+def even(kit: Kit, found: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """EVEN from its polynomials, in the precision of u."""
+    return found.astype(u.dtype) + EVEN_MIDDLE if kit.dtype is np.float32 else found
 
 
 def least_exponent(p: Points) -> np.ndarray:
@@ -170,12 +205,12 @@ class Region(NamedTuple):
     """
 
     variables: Callable[[Points], tuple[Any, Any]]
-    factor: Callable[[Kit, np.ndarray, Steep], np.ndarray] | None = None
+    factor: Callable[[Kit, Any, Steep], Any] | None = None
     along: bool = False
 
     def steep(self, kit: Kit, p: Points) -> Steep:
         x = p.kappa * p.v if self.along else least_exponent(p)
-        return Steep(p, x, mean_cosine(kit, p.kappa), self.along)
+        return Steep(p, x, steep_cosine(kit, p), self.along)
 
 
 def _at_the_edge(p: Points) -> tuple[np.ndarray, np.ndarray]:
@@ -196,7 +231,8 @@ def round_off(at: Steep) -> np.ndarray:
     """What the exponent x lacks: exp(-x) has the relative error x eps if x is rounded once."""
     v, along = at.points.v, at.along
     d, d_low = two_square(at.points.alpha)
-    n, n_low = v, np.zeros_like(v)
+    n: Any = v
+    n_low: Any = 0.0
     if along is not True:
         # 2 v^2/(alpha^2 (1 + s)), where s is a pair as well: 1 - v^2 is exact to 106 bits of 1.
         w, w_low = two_square(v)

@@ -68,12 +68,16 @@ class Left:
             inside = [slice(*ends) for ends in pairwise([0, *ends])]
             p = regions.points(self.u[places], self.alpha[places])
             x, y, cells = np.empty_like(p.v), np.empty_like(p.v), np.empty(p.v.size, np.intp)
+            # Cells are told apart in the precision that they are where points are many.
+            dtype = self.grid.joined.dtype.type
+            rounded = None if dtype is np.float64 else regions.points(p.u, p.alpha, dtype)
             for region, patches, first, own in zip(
                 regions.REGIONS, self.grid.parts, self.grid.firsts, inside, strict=False
             ):
                 if own.start < own.stop:
                     x[own], y[own] = region.variables(p.at(own))
-                    cells[own] = patches.cell(x[own], y[own])
+                    variables = (x[own], y[own]) if rounded is None else region.variables(rounded.at(own))
+                    cells[own] = patches.cell(*variables)
                     cells[own] += first
             yield Joint(places, p, cells, self.grid(x, y, cells), inside)
 

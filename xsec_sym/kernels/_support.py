@@ -53,7 +53,8 @@ def elementwise(
     """Broadcast the named arguments, run `core` on blocks of vectors of `dtype`, and return its values in their shape.
 
     `core` gets one vector an argument, all of one length, and must neither change them nor keep them; it answers
-    with NaN where an argument is outside its domain. Floating-point warnings are off while it runs.
+    with NaN where an argument is outside its domain. Floating-point warnings are off while it runs. Arguments are
+    rounded to `dtype` first, Python's numbers beside arrays of float32 as well.
 
     >>> elementwise(lambda x, y: x + y, x=1, y=[2, 3.5])
     array([3. , 4.5])
@@ -79,24 +80,32 @@ def elementwise_tuple(
     shape = common_shape(dict(zip(arguments, arrays, strict=True)))
     results = [np.empty(shape, single) for _ in range(outputs)]
     access: Any = [("readonly",)] * len(arrays) + [("writeonly", "no_broadcast")] * outputs
-    blocks = np.nditer(
-        (*arrays, *results),
-        flags=("external_loop", "buffered", "zerosize_ok"),
-        op_flags=access,
-        op_dtypes=(dtype,) * (len(arrays) + outputs),
-        casting="same_kind",
-        # A buffer is as large as it is asked for, whatever it will hold.
-        buffersize=min(block, max(math.prod(shape), 1)),
-    )
-    with np.errstate(all="ignore"), blocks:
+    plain = all(array.shape == shape and array.dtype == dtype and array.flags.carray for array in arrays)
+    # The first block is cast as soon as there is an iterator, and may overflow.
+    with np.errstate(all="ignore"):
+        if plain and single == dtype and results[0].size <= block:
+            np.setbufsize(BUFFER)
+            for out, value in zip(results, core(*(array.reshape(-1) for array in arrays)), strict=True):
+                out.reshape(-1)[:] = value
+            return tuple(result[()] for result in results)
+        blocks = np.nditer(
+            (*arrays, *results),
+            flags=("external_loop", "buffered", "zerosize_ok"),
+            op_flags=access,
+            op_dtypes=(dtype,) * (len(arrays) + outputs),
+            casting="same_kind",
+            # A buffer is as large as it is asked for, whatever it will hold.
+            buffersize=min(block, max(math.prod(shape), 1)),
+        )
         np.setbufsize(BUFFER)
-        for parts in blocks:
-            vectors, outs = parts[: len(arrays)], parts[len(arrays) :]
-            # Without a cast the buffer is skipped, and a block may then be the whole array.
-            for start in range(0, outs[0].size, block):
-                part = slice(start, start + block)
-                for out, value in zip(outs, core(*(vector[part] for vector in vectors)), strict=True):
-                    out[part] = value
+        with blocks:
+            for parts in blocks:
+                vectors, outs = parts[: len(arrays)], parts[len(arrays) :]
+                # Without a cast the buffer is skipped, and a block may then be the whole array.
+                for start in range(0, outs[0].size, block):
+                    part = slice(start, start + block)
+                    for out, value in zip(outs, core(*(vector[part] for vector in vectors)), strict=True):
+                        out[part] = value
     return tuple(result[()] for result in results)
 
 
@@ -114,15 +123,15 @@ def scalar(x: np.ndarray) -> float:
     return x.item() if x.dtype == np.float64 else x[0]
 
 
-def horner(coefficients: Collection[float], x: np.ndarray) -> np.ndarray:
-    """The polynomial with these coefficients, highest power first."""
+def horner(coefficients: Collection[float], x: Any) -> Any:
+    """The polynomial with these coefficients, highest power first, of an array or of a float."""
     first, *rest = coefficients
-    if x.size == 1:
+    if isinstance(x, float) or x.size == 1:
         # The same products and sums, without a call for each.
-        one, sum_ = scalar(x), first
+        one, sum_ = x if isinstance(x, float) else scalar(x), first
         for coefficient in rest:
             sum_ = sum_ * one + coefficient
-        return np.full_like(x, sum_)
+        return sum_ if isinstance(x, float) else np.full_like(x, sum_)
     total = np.full_like(x, first)
     for coefficient in rest:
         total *= x

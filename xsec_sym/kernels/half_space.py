@@ -34,8 +34,9 @@ SPLIT_ALBEDO = 0.9
 CHUNK = 1024
 
 
+@functools.lru_cache(maxsize=256)
 def crowded_nodes(n: int, power: int) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes and weights on [0, 1] of Gauss-Legendre quadrature in mu^(1/power).
+    """Nodes and weights on [0, 1] of Gauss-Legendre quadrature in mu^(1/power); nobody may write to them.
 
     >>> mu, weight = crowded_nodes(20, 4)
     >>> bool(abs(np.sum(weight * np.sqrt(mu)) - 2 / 3) < 1e-14)
@@ -43,7 +44,10 @@ def crowded_nodes(n: int, power: int) -> tuple[np.ndarray, np.ndarray]:
     """
     x, weight = np.polynomial.legendre.leggauss(n)
     x, weight = (1.0 + x) / 2.0, weight / 2.0
-    return x**power, power * x ** (power - 1) * weight
+    mu, weight = x**power, power * x ** (power - 1) * weight
+    # every mode of every half-space asks for the same few
+    mu.flags.writeable = weight.flags.writeable = False
+    return mu, weight
 
 
 def associated_legendre(mode: int, orders: np.ndarray, mu: np.ndarray) -> np.ndarray:

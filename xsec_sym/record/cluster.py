@@ -98,8 +98,8 @@ def main() -> None:
     from xsec_sym.record.discover import discover
 
     data = json.load(sys.stdin)
-    jobs = [Job(**j) for j in data["jobs"]]
-    execute = local(discover(), Settings(**data["settings"]))
+    jobs, settings = [Job(**j) for j in data["jobs"]], Settings(**data["settings"])
+    execute = local(discover(), settings)
     json.dump({name: plain(asdict(earned)) for name, earned in execute(jobs)}, sys.stdout)
 
 

@@ -178,14 +178,19 @@ class Mode:
         return self.factors @ (x * (q + y) + p * y)
 
 
+@cache
+def lagrange(n):
+    """The factors of Lagrange's polynomials of Gauss-Legendre nodes, in their barycentric form."""
+    ends, weight = np.polynomial.legendre.leggauss(n)
+    return (-1.0) ** np.arange(n) * np.sqrt((1 - ends) * (1 + ends) * weight)
+
+
 def interpolation(n, power, mu):
     """The matrix of Lagrange's polynomials of the nodes x at mu^(1/power)."""
     x, _, _ = rule(n, power)
-    ends, weight = np.polynomial.legendre.leggauss(n)
-    lagrange = (-1.0) ** np.arange(n) * np.sqrt((1 - ends) * (1 + ends) * weight)
     gap = mu[:, None] ** (1 / power) - x
     hit = gap == 0
-    matrix = lagrange / np.where(hit, 1.0, gap)
+    matrix = lagrange(n) / np.where(hit, 1.0, gap)
     matrix[hit.any(1)] = hit[hit.any(1)]
     return matrix / matrix.sum(1)[:, None]
 
