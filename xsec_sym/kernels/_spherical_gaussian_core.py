@@ -84,7 +84,7 @@ def _few(kit: Kit, form: Form, joint: Joint, value: np.ndarray) -> None:
         x, along = regions.least_exponent(p), np.zeros(p.u.size, bool)
         first = slice(0, steep[0].stop - rest.start)
         x[first], along[first] = p.kappa[first] * p.v[first], True
-        at, factor = Steep(p, x, regions.steep_cosine(kit, p, known and known.at(rest)), along), np.empty_like(x)
+        at, factor = Steep(p, x, regions.steep_cosine(kit, p, along, known and known.at(rest)), along), np.empty_like(x)
         for region, inside in zip(regions.REGIONS[1:], steep, strict=True):
             if inside.start < inside.stop:
                 own = slice(inside.start - rest.start, inside.stop - rest.start)

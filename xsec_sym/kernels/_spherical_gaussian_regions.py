@@ -141,13 +141,17 @@ def pale_cosine(kit: Kit, alpha: Any, known: Inverse | None = None) -> Any:
     return mean + (low + kappa * ratio_low + ratio * kappa_low * (1.0 - 0.1 * kappa * kappa))
 
 
-def steep_cosine(kit: Kit, p: Points, known: Inverse | None = None) -> Any:
-    """The same for kappa > PALE, where a pair gives 1/kappa = a/2 at once."""
+def steep_cosine(kit: Kit, p: Points, along: bool | np.ndarray, known: Inverse | None = None) -> Any:
+    """The same for kappa > PALE, where a pair gives 1/kappa = a/2 at once; `along` as in `Steep`."""
     if not kit.pairs:
         return mean_cosine(kit, p.kappa)
-    a, a_low, kappa, kappa_low = known or inverse(p.alpha)
-    beyond = 2.0 / np.expm1(2.0 * kappa)
-    beyond -= kappa_low * beyond * (2.0 + beyond)
+    beyond = 2.0 / np.expm1(2.0 * p.kappa)
+    if along is False:
+        # What is beyond is so small that the second part of kappa is nothing in it.
+        a, a_low = two_square(p.alpha)
+    else:
+        a, a_low, _, kappa_low = known or inverse(p.alpha)
+        beyond -= np.where(along, kappa_low, 0.0) * beyond * (2.0 + beyond)
     most, low = quick_two_sum(1.0, -0.5 * a)
     return most + (low - 0.5 * a_low + beyond)
 
@@ -210,7 +214,7 @@ class Region(NamedTuple):
 
     def steep(self, kit: Kit, p: Points) -> Steep:
         x = p.kappa * p.v if self.along else least_exponent(p)
-        return Steep(p, x, steep_cosine(kit, p), self.along)
+        return Steep(p, x, steep_cosine(kit, p, self.along), self.along)
 
 
 def _at_the_edge(p: Points) -> tuple[np.ndarray, np.ndarray]:

@@ -118,7 +118,7 @@ def _rim_kappa(group: Group) -> np.ndarray:
     factor = group.region.factor
     assert factor is not None
     at = group.region.steep(PRECISE, p)
-    sigma = factor(PRECISE, PRECISE.grid(*group.region.variables(p), group.cell), at)
+    sigma = factor(PRECISE, group.of(PRECISE.grid), at)
     return _fall(group) * p.kappa * (at.mean * sigma - (0.25 * p.a * p.a * found + beyond) / _rest(p))
 
 

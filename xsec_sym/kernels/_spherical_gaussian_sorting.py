@@ -10,18 +10,22 @@ from xsec_sym.kernels import _spherical_gaussian_regions as regions
 from xsec_sym.kernels._spherical_gaussian_regions import Grid, Points, Region
 
 # From so many on points are evaluated cell by cell, while fewer gather the coefficients of their cells: so many at once
-# of those, and of one cell.
+# of those, and of one region.
 MANY, FEW, CHUNK = 8192, 2048, 2**14
 
 
 class Group(NamedTuple):
-    """Points of one region, with their places; their cell if it is one, or cells; and the polynomials there."""
+    """Points of one region, with their places; the cell of each, or what is in each cell; and the polynomials there."""
 
     region: Region
     places: np.ndarray
     points: Points
-    cell: int | np.ndarray
+    cells: np.ndarray | list[tuple[int, slice]]
     found: np.ndarray
+
+    def of(self, grid: Grid) -> np.ndarray:
+        """The polynomials of another grid."""
+        return _found(grid, *self.region.variables(self.points), self.cells)
 
 
 class Joint(NamedTuple):
@@ -37,6 +41,12 @@ class Joint(NamedTuple):
         for region, part in zip(regions.REGIONS, self.inside, strict=True):
             if part.start < part.stop:
                 yield Group(region, self.places[part], self.points.at(part), self.cells[part], self.found[part])
+
+
+def _found(grid: Grid, x: np.ndarray, y: np.ndarray, cells: np.ndarray | list[tuple[int, slice]]) -> np.ndarray:
+    if isinstance(cells, np.ndarray):
+        return grid(x, y, cells)
+    return np.concatenate([grid(x[inside], y[inside], cell) for cell, inside in cells])
 
 
 class Left:
@@ -90,8 +100,12 @@ class Left:
             places = places[np.argsort(cells, kind="stable")]
             ends = [0, *np.cumsum(np.bincount(cells, minlength=self.grid.firsts[-1])).tolist()]
             for region, (first, last) in zip(regions.REGIONS, pairwise(self.grid.firsts), strict=True):
-                for cell in range(first, last):
-                    for start in range(ends[cell], ends[cell + 1], CHUNK):
-                        chosen = places[start : min(start + CHUNK, ends[cell + 1])]
-                        p = regions.points(self.u[chosen], self.alpha[chosen])
-                        yield Group(region, chosen, p, cell, self.grid(*region.variables(p), cell))
+                for start in range(ends[first], ends[last], CHUNK):
+                    stop = min(start + CHUNK, ends[last])
+                    chosen = places[start:stop]
+                    p = regions.points(self.u[chosen], self.alpha[chosen])
+                    cut = np.clip(ends[first : last + 1], start, stop) - start
+                    inside = [
+                        (first + i, slice(*pair)) for i, pair in enumerate(pairwise(cut.tolist())) if pair[0] < pair[1]
+                    ]
+                    yield Group(region, chosen, p, inside, _found(self.grid, *region.variables(p), inside))
