@@ -190,6 +190,8 @@ def check(context: click.Context, lhs: str, rhs: str, where: str, digits: int, s
     except (ParseError, EmptyDomain) as error:
         complain(error)
     say(answer(verdict, terminal.paint))
+    if verdict.verdict == "confirmed":
+        say(f"  a difference below 1e-{digits} of the sides would not be seen; --digits {3 * digits} looks closer")
     context.exit(0 if verdict.settled else 1 if verdict.verdict == "refuted" else 3)
 
 

@@ -116,6 +116,7 @@ def test_the_table_of_kernels_is_complete():
 
 
 def test_single_precision_of_the_spherical_gaussian():
+    """8 ulp are promised of what is computed in single precision."""
     generator = np.random.default_rng(5)
     cosine = generator.uniform(-1, 1, 400).astype(np.float32)
     rough = np.exp(generator.uniform(np.log(0.05), np.log(50), 400)).astype(np.float32)
@@ -123,4 +124,4 @@ def test_single_precision_of_the_spherical_gaussian():
     double = kernels.sigma_spherical_gaussian(cosine.astype(float), rough.astype(float))
     normal = double > np.finfo(np.float32).tiny
     assert single.dtype == np.float32
-    assert np.all(np.abs(single[normal] - double[normal]) <= np.spacing(single[normal]))
+    assert np.all(np.abs(single[normal] - double[normal]) <= 8 * np.spacing(single[normal]))

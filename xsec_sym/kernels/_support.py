@@ -80,7 +80,10 @@ def elementwise_tuple(
     shape = common_shape(dict(zip(arguments, arrays, strict=True)))
     results = [np.empty(shape, single) for _ in range(outputs)]
     access: Any = [("readonly",)] * len(arrays) + [("writeonly", "no_broadcast")] * outputs
-    plain = all(array.shape == shape and array.dtype == dtype and array.flags.carray for array in arrays)
+    plain = all(
+        array.shape == shape and array.dtype == dtype and array.flags.c_contiguous and array.flags.aligned
+        for array in arrays
+    )
     # The first block is cast as soon as there is an iterator, and may overflow.
     with np.errstate(all="ignore"):
         if plain and single == dtype and results[0].size <= block:
