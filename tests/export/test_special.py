@@ -138,3 +138,10 @@ def test_functions_that_modules_carry():
 
 def test_the_dilogarithm():
     assert lines(polylog(2, u)) == ["return scipy.special.spence(1.0 - u)"]
+
+
+def test_beside_a_hand_made_kernel():
+    """Both carry polynomials of their own."""
+    space = {}
+    exec(module(["deon2016:22", "sigma_dirac_ring"]), space)
+    assert np.isclose(space["sigma_dirac_ring"](0.5, 1.0), np.pi) and space["deon2016_22"](0.3, 0.5) > 0.3

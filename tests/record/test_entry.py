@@ -10,6 +10,7 @@ from xsec_sym.proof import Source, integers, interval
 from xsec_sym.proof.domain import Choices
 from xsec_sym.proof.verdict import RANK, Verdict
 from xsec_sym.record.entry import PUBLIC, Entry
+from xsec_sym.record.show import told
 
 u, x = symbols("u x", real=True)
 n, q = Symbol("n", integer=True), Symbol("q", real=True)
@@ -79,3 +80,11 @@ def test_formulas_are_escaped_in_html():
     html = entry._repr_html_()
     assert "<b>misprint</b>" in html and "a&lt;b" in html and "f = x&lt;y" in html and "f = x&lt;z" in html
     assert entry._repr_latex_() == r"$\displaystyle f = x<z$"
+
+
+def test_only_a_print_is_corrected():
+    said = {"id": "s:1", "source": "s", "label": "1", "title": "t", "left": "f", "corrected": "g"}
+    for printed, heading in ((None, "statement"), ("h", "corrected")):
+        entry = Entry(verdict="claim-fails", printed=printed, **said)
+        assert entry.heading("corrected") == heading and f"<th>{heading}</th>" in entry._repr_html_()
+        assert f"\n{heading}\n" in told(entry, {})

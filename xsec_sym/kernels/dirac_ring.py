@@ -7,7 +7,7 @@ from xsec_sym.kernels._support import elementwise, horner, quick_two_sum, two_pr
 # (t - atan t)/t^3 = P(z)/Q(z) to a relative 2^-54 for z = t^2 in [0, 3]: the rational interpolant at Chebyshev nodes in
 # sqrt(1 + z), the variable in which the branch point z = -1 is farthest. Highest power first; the last pair makes the
 # value at 0 the exact 1/3. All coefficients are positive, so nothing cancels.
-_P = (
+_ARC_P = (
     3.269098496819665e-08,
     0.00011693960196464007,
     0.005910135526501961,
@@ -18,7 +18,7 @@ _P = (
     3.0164873958392686,
     1.0,
 )
-_Q = (
+_ARC_Q = (
     0.0001287774880036131,
     0.007662878076059373,
     0.1420075494836378,
@@ -67,7 +67,7 @@ def barely_lit(d: np.ndarray, a: np.ndarray, a_error: np.ndarray | float = 0.0) 
     square, square_error = two_square(a)
     z = d / square
     z -= z * ((square_error + 2.0 * a * a_error) / square)
-    return 2.0 * np.sqrt(d) * (z * (horner(_P, z) / horner(_Q, z)))
+    return 2.0 * np.sqrt(d) * (z * (horner(_ARC_P, z) / horner(_ARC_Q, z)))
 
 
 def _dirac_ring(u: np.ndarray, u_n: np.ndarray) -> np.ndarray:

@@ -164,13 +164,17 @@ class Entry:
 
         return cite(self)
 
+    def heading(self, name: str) -> str:
+        """What a side is called: it corrects something only where something is printed."""
+        return "statement" if name == "corrected" and self.printed is None else name
+
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex('printed' if self.corrected is None else 'corrected')}$"
 
     def _repr_html_(self) -> str:
         rows = [("printed", f"$\\displaystyle {escape(self.latex())}$")] if self.printed is not None else []
         if self.corrected is not None:
-            rows.append(("corrected", f"$\\displaystyle {escape(self.latex('corrected'))}$"))
+            rows.append((self.heading("corrected"), f"$\\displaystyle {escape(self.latex('corrected'))}$"))
         said = [("edit", self.edit), ("where", self.domain), ("reading", self.reading), ("note", self.note)]
         if self.verdict == "confirmed" and self.digits:
             said.append(("digits", str(self.digits)))

@@ -106,7 +106,7 @@ def _formula(entry: Entry, name: str, form: str, wide: int) -> str:
         if form == "pretty" and "\n" not in text:
             # a formula wider than the page is easier to read in one line than torn into stacks
             text = textwrap.fill(text, wide, break_long_words=False, break_on_hyphens=False)
-    return f"{name}\n{textwrap.indent(text, ' ' * INDENT)}"
+    return f"{entry.heading(name)}\n{textwrap.indent(text, ' ' * INDENT)}"
 
 
 def _typeset(sides: list[Expr], wide: int) -> str:

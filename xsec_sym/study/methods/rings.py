@@ -167,7 +167,7 @@ def compiled_ring(u: float, x: float) -> float:
     return 2.0 * (np.sqrt(d) + a * (0.5 * np.pi + np.arctan(a / np.sqrt(d))))
 
 
-P, Q = dirac_ring._P, dirac_ring._Q
+P, Q = dirac_ring._ARC_P, dirac_ring._ARC_Q
 
 
 def compiled_stable_ring(u: float, x: float) -> float:
