@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
@@ -154,6 +154,9 @@ def test_a_negative_pole_is_minus_infinity():
 
 @settings(max_examples=12, deadline=None)
 @given(st.floats(-0.999, 0.999), st.floats(-1, 1))
+@example(5e-324, 0.0)
+@example(-5e-324, 0.3)
+@example(4.3075519357926675e-14, 0.03125)
 def test_a_jump_nobody_announced_is_within_the_estimate(jump, u):
     value, error = cross_section(lambda x: x > jump).estimate(u)
     announced, its_error = cross_section(lambda x: x > jump, breakpoints=[jump]).estimate(u)

@@ -211,7 +211,8 @@ class CrossSection:
         grades = sign * (1.0 - np.append(np.exp2(-np.arange(GRADES + 1.0)), EPS / 2))
         cuts = self.breakpoints[self.breakpoints * sign > 0.0]
         edges = np.unique(np.clip(np.r_[grades, cuts], *sorted((grades[0], grades[-1]))))
-        owner = np.searchsorted(sign * grades, sign * 0.5 * (edges[1:] + edges[:-1])) - 1
+        # The middle of the narrowest panel rounds to its edge at 0.
+        owner = np.searchsorted(sign * grades, sign * 0.5 * (edges[1:] + edges[:-1]), side="right") - 1
 
         def rule(left, right, _):
             x, width = _nodes(left, right)
