@@ -12,7 +12,7 @@ import click
 
 from xsec_sym import terminal
 from xsec_sym.scaffold import new
-from xsec_sym.terminal import Count, Program, complain, drawn, output, progress, say
+from xsec_sym.terminal import Count, Program, complain, drawn, output, progress, say, wrote
 
 # Work is shared out to processes, whose small matrices threads would only slow down; to be set before NumPy is loaded.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -93,41 +93,48 @@ def verify(
 
     Exit code 0 when every verdict is settled and is the recorded one, 1 when any differs or is not settled.
     """
-    with output(target) as out, progress("reading the derivations") as steps:
-        from xsec_sym import verifying
-        from xsec_sym.record import show
-        from xsec_sym.record.run import Settings, differences, to_record, verify_all, with_parts
+    from time import perf_counter
 
-        if cluster and derivations:
-            complain("--derivations cannot go with --cluster: its machines do not have that folder")
-        claims = verifying.claims_of(derivations)
-        ledger = _ledger(derivations)
-        chosen = verifying.chosen_ids(ids, sources, claims, ledger)
-        settings = Settings(digits, seed, fresh, jobs or os.cpu_count() or 1)
-        execute = verifying.on_cluster(cluster, settings) if cluster else None
-        effort = verifying.efforts(with_parts(claims, chosen), ledger)
-        steps.expect(len(effort), sum(effort.values()))
-        results = verify_all(claims, chosen, ledger, settings, execute=execute, now=lambda names: steps.now(*names),
-                             tick=lambda name: steps.done(effort[name]))  # fmt: skip
-        entries = [r.entry for r in results]
-        restricted = set(sources) if sources else set() if ids else {e.source for e in ledger.values()}
-        met = [e.id for e in ledger.values() if e.source in restricted]
-        found = differences(results, ledger, claims, met)
-        # a claim of the user's own is new at first, and that is no fault
-        own = {r.entry.id for r in results if not claims[r.entry.id].module.startswith("derivations")}
-        faults = [said for said in found if said.partition(": ")[0] not in own - set(ledger)]
-        if record:
-            verifying.keep(
-                results, to_record(results, ledger), ledger, claims, [n for n in met if n not in claims], own
-            )
-            faults = []
-        if out is not None:
-            verifying.write_json(out, entries, digits)
+    from xsec_sym import verifying
+
+    start = perf_counter()
+    try:
+        with output(target) as out, progress("reading the derivations") as steps:
+            from xsec_sym.record import show
+            from xsec_sym.record.run import Run, Settings, differences, to_record
+
+            if cluster and derivations:
+                complain("--derivations cannot go with --cluster: its machines do not have that folder")
+            claims = verifying.claims_of(derivations)
+            ledger = _ledger(derivations)
+            chosen = verifying.chosen_ids(ids, sources, claims, ledger)
+            run = Run(claims, chosen, ledger, Settings(digits, seed, fresh, jobs or os.cpu_count() or 1))
+            effort = verifying.efforts(run.wanted, ledger)
+            steps.expect(len(effort), sum(effort.values()))
+            results = verifying.carried_out(run, cluster, steps, effort, record)
+            entries = [r.entry for r in results]
+            restricted = set(sources) if sources else set() if ids else {e.source for e in ledger.values()}
+            met = [e.id for e in ledger.values() if e.source in restricted]
+            gone = [name for name in met if name not in claims]
+            found = differences(results, ledger, claims, met)
+            # a claim of the user's own is new at first, and that is no fault
+            own = {r.entry.id for r in results if not claims[r.entry.id].module.startswith("derivations")}
+            faults = [said for said in found if said.partition(": ")[0] not in own - set(ledger)]
+            closing = verifying.closing(results, ledger, len(gone), record, perf_counter() - start)
+            if record:
+                verifying.keep(results, to_record(results, ledger), ledger, claims, gone, own)
+                faults = []
+            if out is not None:
+                verifying.write_json(out, entries, digits)
+    except verifying.Stopped as stopped:
+        if sys.stdout.isatty():
+            click.echo()
+        verifying.print_verdicts(stopped.entries)
+        raise
     verifying.print_verdicts(entries)
-    for said in [*show.summary(entries), *([] if record and not found else found)]:
+    for said in [*show.summary(entries), *found, closing]:
         click.echo(said)
-    if record:
-        click.echo("recorded")
+    wrote(target)
     context.exit(1 if faults or not all(e.settled for e in entries) else 0)
 
 
@@ -235,6 +242,7 @@ def chart(
                 files.write(data, path, kind, stability)
     except (UnknownQuantity, files.Unmeasured, NoCluster) as error:
         complain(error)
+    wrote(target)
 
 
 def _measured(name: str, seed: int, jobs: int, cluster: str | None) -> dict[str, Any]:
@@ -275,6 +283,7 @@ def export(names: tuple[str, ...], target: str | None, dtype: str, derivations: 
             out.write(text)
     if out is None:
         click.echo(text, nl=False)
+    wrote(target)
 
 
 def _exportable(exporter: Any, derivations: str | None) -> list[str]:
@@ -308,6 +317,7 @@ def plan(scene: str, target: str | None, report: str | None, measure: bool) -> N
             told.write(layout(found.as_dict()) + "\n")
     for line in found.lines():
         click.echo(line)
+    wrote(target, report)
 
 
 @main.command()

@@ -7,7 +7,7 @@ import contextlib
 import os
 import signal
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -18,6 +18,8 @@ import click
 from xsec_sym import guide
 
 INTERRUPTED = 130
+# What a shell tells of a program that wrote into a closed pipe.
+UNREAD = 141
 COMPLETE = "_XSEC_COMPLETE"
 
 
@@ -54,28 +56,36 @@ class Program(click.Group):
         _mind_exit()
         code: Any
         try:
-            code = run(*args, standalone_mode=False, **extra)
+            code = self._carried_out(lambda: run(*args, standalone_mode=False, **extra))
+            sys.stdout.flush()
+        except (BrokenPipeError, SystemExit):
+            # click leaves where a pipe is closed; whose reader has had enough asks for no more, and that is no mistake
+            if not _unread():
+                raise
+            code = UNREAD
+        sys.exit(code if isinstance(code, int) else 0)
+
+    @staticmethod
+    def _carried_out(run: Callable[[], Any]) -> Any:
+        try:
+            return run()
         except Interrupted as left:
             # what is echoed as ^C stands on the line already
             click.echo(f"{chr(10) * sys.stderr.isatty()}xsec: {left.message}", err=True)
             _EXIT.append(INTERRUPTED)
-            code = INTERRUPTED
+            return INTERRUPTED
         except click.ClickException as mistake:
             click.echo(f"xsec: {one_line(_told(mistake))}", err=True)
-            code = 2
+            return 2
         except (click.Abort, KeyboardInterrupt):
-            code = INTERRUPTED
-        sys.exit(code if isinstance(code, int) else 0)
+            return INTERRUPTED
 
     def invoke(self, context: click.Context) -> Any:
         try:
             with _insisting():
                 return super().invoke(context)
         except KeyboardInterrupt:
-            # who presses again would only disturb the tidying
-            with contextlib.suppress(ValueError):
-                signal.signal(signal.SIGINT, signal.SIG_IGN)
-            _end_children()
+            calm()
             raise Interrupted("interrupted") from None
 
     def resolve_command(self, context: click.Context, args: list[str]) -> Any:
@@ -90,6 +100,21 @@ def _told(mistake: click.ClickException) -> str:
         near = f"; did you mean {' or '.join(mistake.possibilities)}?" if mistake.possibilities else ""
         return f"there is no option {mistake.option_name}{near}"
     return mistake.format_message()
+
+
+def _unread() -> bool:
+    """Whether nobody reads what we print any more; if so, what is left of it goes nowhere."""
+    import select
+
+    found = False
+    for stream in (sys.stdout, sys.stderr):
+        with contextlib.suppress(OSError, ValueError, AttributeError):
+            asked = select.poll()
+            asked.register(stream.fileno(), select.POLLOUT)
+            if any(event & select.POLLERR for _, event in asked.poll(0)):
+                os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+                found = True
+    return found
 
 
 @contextlib.contextmanager
@@ -115,6 +140,15 @@ def _insisting() -> Iterator[None]:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0)
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+def calm() -> None:
+    """After Ctrl-C: nothing is raised any more, and no process of ours is left."""
+    # who presses again would only disturb the tidying
+    with contextlib.suppress(ValueError, AttributeError):
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+    _end_children()
 
 
 _EXIT: list[int] = []
@@ -187,6 +221,12 @@ def paint(text: str, colour: str) -> str:
 
 
 def say(text: str) -> None:
+    try:
+        text.encode(sys.stdout.encoding or "utf-8")
+    except (UnicodeEncodeError, LookupError):
+        # signs that mean something are spelt out where there are no such letters
+        for sign, spelt in (("≈", "~="), ("≥", ">=")):
+            text = text.replace(sign, spelt)
     click.echo(text, color=coloured())
 
 
@@ -232,6 +272,13 @@ def drawn(target: str | None) -> Iterator[str | None]:
             os.replace(path, target)
     except OSError as error:
         complain(f"cannot write {target}: {error.strerror or error}")
+
+
+def wrote(*paths: str | None) -> None:
+    """Say which files there are now; what was written into a device or a pipe is no file."""
+    for path in paths:
+        if path is not None and Path(path).is_file():
+            click.echo(f"wrote {path}")
 
 
 # --- progress --------------------------------------------------------------------------------------------

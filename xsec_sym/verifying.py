@@ -6,7 +6,28 @@ import sys
 from collections.abc import Sequence
 from typing import Any, TextIO
 
-from xsec_sym.terminal import coloured, complain, nearest_or_all, one_line, say
+from xsec_sym.terminal import Interrupted, calm, coloured, complain, nearest_or_all, one_line, say
+
+
+class Stopped(Interrupted):
+    """Ctrl-C came before all was verified; what was is told."""
+
+    def __init__(self, run: Any, record: bool) -> None:
+        self.entries = [r.entry for r in run.results()]
+        kept = "; nothing is recorded" if record else ""
+        super().__init__(f"stopped after {len(self.entries)} of {len(run.wanted)}{kept}")
+
+
+def carried_out(run: Any, cluster: str | None, steps: Any, effort: dict[str, float], record: bool) -> list[Any]:
+    """The results of a run. Raises `Stopped` with those there are when Ctrl-C is pressed."""
+    execute = on_cluster(cluster, run.settings) if cluster else None
+    try:
+        run.go(execute, tick=lambda name: steps.done(effort[name]), now=lambda names: steps.now(*names))
+    except KeyboardInterrupt:
+        calm()
+        raise Stopped(run, record) from None
+    found: list[Any] = run.results()
+    return found
 
 
 def efforts(names: Sequence[str], ledger: Any) -> dict[str, float]:
@@ -75,14 +96,54 @@ def write_json(out: TextIO, entries: list[Any], digits: int) -> None:
 def print_verdicts(entries: list[Any]) -> None:
     from xsec_sym.record import show
 
+    if not entries:
+        return
     if coloured():
         from rich.console import Console
 
         # where colours are forced into a pipe, no line is folded for its sake
-        Console(width=None if sys.stdout.isatty() else 200).print(show.table(entries))
+        console = Console(width=None if sys.stdout.isatty() else 200)
+        with console.capture() as table:
+            console.print(show.table(entries))
+        say(table.get().rstrip("\n"))
     else:
         for line in show.lines(entries):
             say(line)
     for entry in entries:
         if not entry.settled and entry.note:
             say(f"{entry.id}: {one_line(entry.note)}")
+
+
+def closing(results: Sequence[Any], ledger: Any, gone: int, recorded: bool, seconds: float) -> str:
+    """All in one sentence.
+
+    >>> from types import SimpleNamespace as Made
+    >>> result = Made(entry=Made(id="a:1", verdict="proved", settled=True))
+    >>> closing([result], {"a:1": Made(verdict="confirmed")}, 0, False, 154)
+    '1 verdict: 1 differs from the record (2 min 34 s)'
+    """
+    entries = [r.entry for r in results]
+    differ = sum(e.id in ledger and ledger[e.id].verdict != e.verdict for e in entries)
+    new = sum(e.id not in ledger for e in entries)
+    unsettled = sum(not e.settled for e in entries)
+    told = [
+        *([f"{differ} differ{'s' * (differ == 1)} from the record"] if differ and not recorded else []),
+        *([f"{new} not in the record"] if new and not recorded else []),
+        *([f"{gone} in the record that nothing claims"] if gone and not recorded else []),
+        *([f"{unsettled} not settled"] if unsettled else []),
+    ]
+    head = f"{len(entries)} verdict{'s' * (len(entries) != 1)}" + ", recorded" * recorded
+    same = "" if recorded else ", as recorded" if len(entries) == 1 else ", all as recorded"
+    return f"{head}{': ' + ', '.join(told) if told else same} ({duration(seconds)})"
+
+
+def duration(seconds: float) -> str:
+    """A time as it is said.
+
+    >>> duration(0.84), duration(34.2), duration(154)
+    ('0.8 s', '34 s', '2 min 34 s')
+    """
+    if seconds < 9.95:
+        return f"{seconds:.1f} s"
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes} min {rest} s" if minutes else f"{rest} s"

@@ -149,9 +149,11 @@ class Entry:
     # --- display -----------------------------------------------------------------------------------
 
     def latex(self, side: str = "printed") -> str:
-        """The whole equation with its printed, or its corrected, right side."""
-        right = getattr(self, side)
-        return self.left if right is None else f"{self.left} = {right}"
+        r"""The whole statement with its printed, or its corrected, right side: what is near is set with \approx."""
+        from xsec_sym.record import relation
+
+        left, right = relation.parts(self, side)
+        return left if right is None else f"{left} {relation.LATEX[relation.sign(self)]} {right}"
 
     def bibtex(self) -> str:
         """A BibTeX entry by which this verdict can be cited; `xsec_sym.record.sources.bibtex` has those of the sources.
@@ -165,16 +167,21 @@ class Entry:
         return cite(self)
 
     def heading(self, name: str) -> str:
-        """What a side is called: it corrects something only where something is printed."""
-        return "statement" if name == "corrected" and self.printed is None else name
+        """What a side is called, and how near it is: it corrects something only where something is printed."""
+        from xsec_sym.record.relation import nearness
+
+        called = "statement" if name == "corrected" and self.printed is None else name
+        return ", ".join(filter(None, [called, nearness(self, name)]))
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex('printed' if self.corrected is None else 'corrected')}$"
 
     def _repr_html_(self) -> str:
-        rows = [("printed", f"$\\displaystyle {escape(self.latex())}$")] if self.printed is not None else []
-        if self.corrected is not None:
-            rows.append((self.heading("corrected"), f"$\\displaystyle {escape(self.latex('corrected'))}$"))
+        rows = [
+            (self.heading(name), f"$\\displaystyle {escape(self.latex(name))}$")
+            for name in ("printed", "corrected")
+            if getattr(self, name) is not None
+        ]
         said = [("edit", self.edit), ("where", self.domain), ("reading", self.reading), ("note", self.note)]
         if self.verdict == "confirmed" and self.digits:
             said.append(("digits", str(self.digits)))

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from xsec_sym.record import relation
 from xsec_sym.record.entry import Entry
 
 if TYPE_CHECKING:
@@ -97,37 +98,39 @@ def _formula(entry: Entry, name: str, form: str, wide: int) -> str:
     left = right = None
     if form != "latex":
         with contextlib.suppress(ValueError, KeyError, TypeError):
-            left, right = entry.side("left"), entry.side(name)
+            left, right = relation.sides(entry, name)
     if left is None or (right is None and getattr(entry, name) is not None):
         text = entry.latex(name)
     else:
         sides = [left] if right is None else [left, right]
-        text = (form == "pretty" and _typeset(sides, wide)) or " = ".join(map(str, sides))
+        sign = relation.sign(entry)
+        plain = ">=" if sign == relation.LEAST else sign
+        text = (form == "pretty" and _typeset(sides, sign, wide)) or f" {plain} ".join(map(str, sides))
         if form == "pretty" and "\n" not in text:
             # a formula wider than the page is easier to read in one line than torn into stacks
             text = textwrap.fill(text, wide, break_long_words=False, break_on_hyphens=False)
     return f"{entry.heading(name)}\n{textwrap.indent(text, ' ' * INDENT)}"
 
 
-def _typeset(sides: list[Expr], wide: int) -> str:
+def _typeset(sides: list[Expr], sign: str, wide: int) -> str:
     """Side by side where that fits, one below the other where not; nothing if even so it is too wide."""
     from sympy import pretty
 
     shown = [pretty(side, use_unicode=True, num_columns=10_000) for side in sides]
-    for text in (_beside(*shown) if len(shown) == 2 else shown[0], "\n=\n".join(shown)):
+    for text in (_beside(*shown, sign) if len(shown) == 2 else shown[0], f"\n{sign}\n".join(shown)):
         if max(map(len, text.splitlines())) <= wide:
             return text
     return ""
 
 
-def _beside(left: str, right: str) -> str:
+def _beside(left: str, right: str, sign: str) -> str:
     from sympy.printing.pretty.stringpict import stringPict
 
     def picture(text: str) -> Any:
         lines = text.splitlines()
         return stringPict(text, len(lines) // 2)
 
-    return str(stringPict(*picture(left).right(" = ", picture(right))))
+    return str(stringPict(*picture(left).right(f" {sign} ", picture(right))))
 
 
 def _field(name: str, text: str) -> str:
@@ -190,6 +193,9 @@ def answer(verdict: Verdict, paint: Paint = lambda text, colour: text) -> str:
     return "\n".join(lines)
 
 
+COLUMNS = ("id", "verdict", "digits", "mutants", "seconds")
+
+
 def rows(entries: Iterable[Entry]) -> list[tuple[str, str, str, str, str]]:
     return [
         (e.id, e.verdict, str(e.digits or ""), str(e.mutants or ""), f"{e.seconds:.2f}" if e.seconds else "")
@@ -198,10 +204,10 @@ def rows(entries: Iterable[Entry]) -> list[tuple[str, str, str, str, str]]:
 
 
 def lines(entries: Iterable[Entry]) -> list[str]:
-    """The table for a pipe: one line an entry, whatever the width of a terminal."""
-    found = rows(entries)
-    wide = max((len(r[0]) for r in found), default=0)
-    return [f"{r[0]:<{wide}}  {r[1]:<12}  {r[2]:>3}  {r[3]:>3}  {r[4]:>8}".rstrip() for r in found]
+    """The table for a pipe: one line an entry below the names of the columns, whatever the width of a terminal."""
+    found = [COLUMNS, *rows(entries)]
+    wide = max(len(r[0]) for r in found)
+    return [f"{r[0]:<{wide}}  {r[1]:<12}  {r[2]:>6}  {r[3]:>7}  {r[4]:>8}".rstrip() for r in found]
 
 
 def table(entries: Iterable[Entry]) -> Table:
@@ -209,9 +215,9 @@ def table(entries: Iterable[Entry]) -> Table:
     from rich.table import Table
 
     made = Table(box=None, pad_edge=False)
-    for name in ("id", "verdict"):
+    for name in COLUMNS[:2]:
         made.add_column(name, no_wrap=True)
-    for name in ("digits", "mutants", "seconds"):
+    for name in COLUMNS[2:]:
         made.add_column(name, justify="right")
     for row in rows(entries):
         made.add_row(row[0], f"[{colour(row[1])}]{row[1]}[/]", *row[2:])

@@ -9,6 +9,7 @@ from typing import Any
 
 from markupsafe import Markup
 
+from xsec_sym.record import relation
 from xsec_sym.record.entry import Entry
 from xsec_sym.record.show import MEANING, MEASURED
 from xsec_sym.report import words
@@ -89,17 +90,22 @@ class Item:
             printed, corrected = tree(e.printed), tree(e.corrected)
             mark(printed, corrected)
             return [
-                ("in print", "print", self._equation(printed)),
-                ("what holds", "holds", self._equation(corrected)),
+                (self._near("in print", "printed"), "print", self._equation(printed)),
+                (self._near("what holds", "corrected"), "holds", self._equation(corrected)),
             ]
-        right = e.printed if e.corrected is None else e.corrected
+        name = "printed" if e.corrected is None else "corrected"
+        left, right = relation.parts(e, name)
         if e.printed is None and e.label.startswith("T1.") and e.corrected is not None:
             return [("blank in print; what holds", "holds", self._equation(tree(e.corrected)))]
         heading, kind = ("as stated", "print") if self.fails else ("", "plain")
-        return [(heading, kind, self._equation(None if right is None else tree(right)))]
+        return [(self._near(heading, name), kind, self._equation(None if right is None else tree(right), left))]
 
-    def _equation(self, right: Any) -> Markup:
-        return Markup(equation(tree(self.entry.left) if self.entry.left else None, right))
+    def _near(self, heading: str, name: str) -> str:
+        return ", ".join(filter(None, [heading, relation.nearness(self.entry, name)]))
+
+    def _equation(self, right: Any, left: str | None = None) -> Markup:
+        left = self.entry.left if left is None else left
+        return Markup(equation(tree(left) if left else None, right, relation.sign(self.entry)))
 
     # --- facts ------------------------------------------------------------------------------------------
 
