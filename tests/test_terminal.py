@@ -5,6 +5,8 @@ import io
 import os
 import pty
 import re
+import select
+import shutil
 import signal
 import subprocess
 import sys
@@ -226,16 +228,98 @@ def test_bash_itself(tmp_path):
     ], done.stderr
 
 
+@pytest.fixture(scope="module")
+def stub(tmp_path_factory):
+    """A folder with a program xsec that completes as ours does, and else says how it was called."""
+    room = tmp_path_factory.mktemp("stub")
+    (room / "xsec").write_text(
+        f'#!/bin/sh\n[ -n "$_XSEC_COMPLETE" ] && exec "{sys.executable}" -m xsec_sym.cli "$@"\necho "ran: $*."\n'
+    )
+    (room / "xsec").chmod(0o755)
+    for shell in ("zsh", "fish"):
+        (room / f"xsec.{shell}").write_text(complete.script(shell, main, "_XSEC_COMPLETE"))
+    return room
+
+
+@pytest.mark.skipif(shutil.which("fish") is None, reason="fish is not installed")
+def test_fish_itself(stub):
+    asked = ["xsec ver", "xsec show 'deon2016:T1.u2.s", f"xsec report -o {stub.parent}/", "xsec chart sigma_gg"]
+    text = "\n".join([f"source {stub}/xsec.fish", *(f'complete -C "{line}"; echo --' for line in asked)])
+    environment = {**PLAIN, "PATH": f"{stub}:{os.environ['PATH']}", "HOME": str(stub)}
+    done = subprocess.run(["fish", "--no-config", "-c", text], capture_output=True, text=True, env=environment)
+    commands, cells, folders, quantities = done.stdout.split("--\n")[:4]
+    assert commands.startswith("verify\tCheck the claims again: all, ") and commands.count("\n") == 1, done.stderr
+    assert [line.split("\t")[0] for line in cells.splitlines()] == [
+        f"deon2016:T1.u2.{column}" for column in ("s1", "s2", "s3", "s")
+    ]
+    assert "misprint: Table 1: x**2, column s1" in cells, "a comma does not end what is said"
+    assert f"{stub}/" in folders and quantities == "sigma_ggx\n"
+
+
+@pytest.mark.skipif(shutil.which("zsh") is None, reason="zsh is not installed")
+def test_zsh_itself(stub):
+    environment = {**PLAIN, "TERM": "dumb", "PATH": f"{stub}:{os.environ['PATH']}", "HOME": str(stub), "PS1": "% "}
+    ours, theirs = pty.openpty()
+    with subprocess.Popen(["zsh", "-f", "-i"], stdin=theirs, stdout=theirs, stderr=theirs, env=environment,
+                          start_new_session=True) as shell:  # fmt: skip
+        os.close(theirs)
+
+        def told(line, until):
+            """What the terminal shows after a line is typed, as far as these words."""
+            os.write(ours, line.encode())
+            said, end = b"", time.monotonic() + 20
+            while until.encode() not in said and time.monotonic() < end:
+                if select.select([ours], [], [], 0.1)[0]:
+                    said += os.read(ours, 65536)
+            return said.decode(errors="replace")
+
+        try:
+            told(f"autoload -Uz compinit; compinit -u -D; source {stub}/xsec.zsh; echo rea''dy\n", "ready")
+            for typed, ran in [
+                ("xsec ver\t\n", "ran: verify."),
+                ("xsec show deon2016:T1.u2.s3\t\n", "ran: show deon2016:T1.u2.s3."),
+                ("xsec verify --source ken\t\n", "ran: verify --source kenha2018."),
+                (f"xsec plan {stub}/xsec.z\t\n", f"ran: plan {stub}/xsec.zsh."),
+            ]:
+                assert ran in told(typed, ran)
+            assert "deon2016:T1.u2.s1  -- misprint: Table 1: x**2, column s1" in told(
+                "xsec show deon2016:T1.u2.s\t", "column s\r"
+            )
+        finally:
+            shell.kill()
+    os.close(ours)
+
+
+# --- a pipe whose reader has had enough ------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("arguments", [["show", "deon2016"], ["export"], ["--help"], ["chart", "--help"]])
+def test_a_closed_pipe_ends_quietly(arguments):
+    with subprocess.Popen([*XSEC, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=PLAIN) as process:
+        process.stdout.close()
+        assert (process.stderr.read(), process.wait()) == (b"", terminal.UNREAD)
+
+
+def test_a_closed_pipe_of_what_is_wrong(tmp_path):
+    read, write = os.pipe()
+    os.close(read)
+    with subprocess.Popen([*XSEC, "nothing"], stdout=write, stderr=write, env=PLAIN) as process:
+        os.close(write)
+        assert process.wait() == terminal.UNREAD
+
+
 # --- Ctrl-C ----------------------------------------------------------------------------------------------
 
 SLOW = """import time
+from pathlib import Path
 from sympy import Symbol
 from xsec_sym.proof import Source, interval
 u = Symbol("u", real=True)
 paper = Source("mine", section="1")
+paper.out_of_scope("0", "done at once", because="it is an opinion")
 for k in (1, 2, 3):
     claim = paper.claim(str(k), f"slow {k}", left=u * u**k, printed=u ** (k + 1), where=[interval(u, 0, 1)])
-    claim.proof(lambda step: time.sleep(60))
+    claim.proof(lambda step, k=k: (Path(__file__).with_name(f"begun-{k}").touch(), time.sleep(60)))
 """
 
 
@@ -245,7 +329,7 @@ def children(pid):
 
 
 def interrupted(folder, *arguments, ready):
-    """What is left of a command that SIGINT met when it was ready: its exit code, what it said, its processes."""
+    """What is left of a command that SIGINT met when it was ready: its exit code, what it said on both streams, its processes."""
     with subprocess.Popen([*XSEC, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder,
                           env=PLAIN | {"PYTHONPATH": str(Path(__file__).parent.parent)}) as process:  # fmt: skip
         until = time.monotonic() + 30
@@ -254,25 +338,31 @@ def interrupted(folder, *arguments, ready):
         time.sleep(0.2)
         begun = children(process.pid) if process.poll() is None else []
         process.send_signal(signal.SIGINT)
-        _, said = process.communicate(timeout=20)
+        *told, said = process.communicate(timeout=20)
     until = time.monotonic() + 5
     while (left := [child for child in begun if Path(f"/proc/{child}").exists()]) and time.monotonic() < until:
         time.sleep(0.05)
-    return process.returncode, said, begun, left
+    return process.returncode, *told, said, begun, left
 
 
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="processes are found through /proc")
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["verify", "--derivations", "mine", "--source", "mine", "--jobs", "2", "--json", "out.json"],
-        ["chart", "sel", "--measure", "--jobs", "2", "-o", "out.svg"],
-    ],
-)
-def test_ctrl_c_leaves_one_line_and_nothing_else(arguments, tmp_path):
+@pytest.mark.parametrize("more", [[], ["--record"]])
+def test_ctrl_c_tells_what_is_verified(more, tmp_path):
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "paper.py").write_text(SLOW)
-    code, said, begun, left = interrupted(tmp_path, *arguments, ready=lambda pid: len(children(pid)) >= 2)
-    assert (code, said) == (130, "xsec: interrupted\n")
+    arguments = ["verify", "--derivations", "mine", "--source", "mine", "--jobs", "2", "--json", "out.json", *more]
+    # the second slow one is begun by the process that has handed in the quick one
+    both = [tmp_path / "mine" / f"begun-{k}" for k in (1, 2)]
+    code, told, said, begun, left = interrupted(tmp_path, *arguments, ready=lambda pid: all(p.exists() for p in both))
+    assert code == 130 and said == f"xsec: stopped after 1 of 4{'; nothing is recorded' if more else ''}\n"
+    assert [line.split()[:2] for line in told.splitlines()] == [["id", "verdict"], ["mine:0", "out-of-scope"]]
     assert len(begun) >= 2 and left == []
-    assert [p for p in os.listdir(tmp_path) if p != "mine"] == [] and not (tmp_path / "mine" / "record").exists()
+    assert os.listdir(tmp_path) == ["mine"] and not (tmp_path / "mine" / "record").exists()
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="processes are found through /proc")
+def test_ctrl_c_leaves_one_line_and_nothing_else(tmp_path):
+    arguments = ["chart", "sel", "--measure", "--jobs", "2", "-o", "out.svg"]
+    code, told, said, begun, left = interrupted(tmp_path, *arguments, ready=lambda pid: len(children(pid)) >= 2)
+    assert (code, told, said) == (130, "", "xsec: interrupted\n")
+    assert len(begun) >= 2 and left == [] and os.listdir(tmp_path) == []

@@ -32,6 +32,8 @@ def _known(what: str) -> Callable[..., Any]:
 def _ledger(derivations: str | None) -> Any:
     from xsec_sym.record import store
 
+    if derivations and not Path(derivations).is_dir():
+        complain(f"{derivations} is not a folder of derivations")
     folders = [store.DATA, *([Path(derivations) / "record"] if derivations else [])]
     found = store.Ledger(*folders)
     try:
@@ -91,7 +93,8 @@ def verify(
 ) -> None:
     """Check the claims again: all, the given ids, or one source.
 
-    Exit code 0 when every verdict is settled and is the recorded one, 1 when any differs or is not settled.
+    Exit code 0 when every verdict is settled and is the recorded one, 1 when any differs or is not settled. Ctrl-C
+    ends it with the verdicts that there are by then, and exit code 130.
     """
     from time import perf_counter
 
@@ -152,9 +155,9 @@ def show(names: tuple[str, ...], latex: bool, bibtex: bool, derivations: str | N
     """
     from shutil import get_terminal_size
 
+    from xsec_sym import hints
     from xsec_sym.record import show as text
     from xsec_sym.record.sources import SOURCES, bibtex_of
-    from xsec_sym.record.store import nearest
 
     ledger = _ledger(derivations)
     known = dict.fromkeys([*ledger, *ledger.sources, *(SOURCES if bibtex else ())])
@@ -162,7 +165,7 @@ def show(names: tuple[str, ...], latex: bool, bibtex: bool, derivations: str | N
         complain("name at least one entry, such as deon2016:18, or a source: " + ", ".join(ledger.sources))
     for name in names:
         if name not in known:
-            complain(f"there is no entry {name}{nearest(name, known)}")
+            complain(f"there is no entry {name}{hints.entry(name, known, ledger.sources, derivations)}")
     if bibtex:
         try:
             click.echo("\n\n".join(bibtex_of(name, ledger) for name in names or SOURCES))
@@ -180,7 +183,8 @@ def show(names: tuple[str, ...], latex: bool, bibtex: bool, derivations: str | N
 @click.argument("rhs")
 @click.option("--where", default="", help='The domain, such as "u in (-1, 1), n in {0, 1, 2}, u*n > 0".')
 @click.option("--digits", type=Count(1, 1000), default=30, show_default=True, help="Digits to agree on.")
-@click.option("--seconds", type=click.FloatRange(0.1, 86400), default=60.0, show_default=True, help="Time limit.")
+@click.option("--seconds", type=click.FloatRange(0.1, 86400), default=60.0, show_default=True, metavar="S",
+              help="Time limit.")  # fmt: skip
 @click.pass_context
 def check(context: click.Context, lhs: str, rhs: str, where: str, digits: int, seconds: float) -> None:
     """Check an equation of your own: LHS = RHS wherever --where holds.
@@ -259,35 +263,37 @@ def _measured(name: str, seed: int, jobs: int, cluster: str | None) -> dict[str,
 @main.command(short_help="Write verified expressions as a module of NumPy.")
 @click.argument("names", nargs=-1, metavar="[NAME]...", shell_complete=_known("exports"))
 @click.option("-o", "target", type=FILE, metavar="FILE", help="The module to write.  [default: standard output]")
-@click.option("--dtype", type=click.Choice(["float32", "float64"]), default="float64", show_default=True)
+@click.option("--dtype", type=click.Choice(["float32", "float64"]), default="float64", show_default=True,
+              help="What the functions return.")  # fmt: skip
 @OWN
 def export(names: tuple[str, ...], target: str | None, dtype: str, derivations: str | None) -> None:
-    """Write verified expressions as one module that imports NumPy; without a NAME, list what there is."""
+    """Write verified expressions as one module that imports NumPy; without a NAME, list what there is.
+
+    The list has a line for each name; lines that begin with # say what they have in common.
+    """
     from importlib import import_module
 
     exporter = import_module("xsec_sym.export")
     refusal = exporter.Refusal
+    from xsec_sym import exporting, hints
+
     if not names:
         if target is not None:
             complain("name what to export; without a name there is only the list")
-        for line in _exportable(exporter, derivations):
-            click.echo(line)
+        record = _ledger(derivations)
+        click.echo("\n".join(exporting.listing(exporter.available(record), record)))
         return
     with output(None if target == "-" else target) as out, progress(count=len(names)) as steps:
         try:
             own = {"record": _ledger(derivations)} if derivations else {}
             text = exporter.module(list(names), dtype, tick=steps.next, **own)
-        except (refusal, KeyError) as error:
-            complain(error if isinstance(error, refusal) else str(error))
+        except refusal as error:
+            complain(f"{error}{hints.exported(names) if isinstance(error, exporter.HandMade) else ''}")
         if out is not None:
             out.write(text)
     if out is None:
         click.echo(text, nl=False)
     wrote(target)
-
-
-def _exportable(exporter: Any, derivations: str | None) -> list[str]:
-    return [str(name) for name in (exporter.names(_ledger(derivations)) if derivations else exporter.names())]
 
 
 @main.command(short_help="Choose the cheapest kernels for a scene.")

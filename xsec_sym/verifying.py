@@ -45,12 +45,12 @@ def claims_of(derivations: str | None) -> dict[str, Any]:
 
 
 def chosen_ids(ids: Sequence[str], sources: Sequence[str], claims: dict[str, Any], ledger: Any) -> list[str]:
-    from xsec_sym.record.store import nearest
+    from xsec_sym import hints
 
     known = list(dict.fromkeys(c.source for c in claims.values()))
     for name in ids:
         if name not in claims:
-            complain(f"there is no claim {name}{nearest(name, claims)}")
+            complain(f"there is no claim {name}{hints.claim(name, claims, known)}")
     for key in sources:
         if key not in known:
             complain(f"there is no source {key}{nearest_or_all(key, known)}")

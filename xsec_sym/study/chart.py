@@ -193,8 +193,15 @@ def _where(data: Mapping[str, Any]) -> str:
     return f"; errors for {', '.join(told)}" if told else " in the domain"
 
 
+LEGEND = (
+    "arrays: every argument is an array; constant: those that a scene sets once are single numbers. ns: nanoseconds a",
+    "value. max rel, max abs: the largest errors found, at troublesome places too; p99 rel: 99 of 100 values all over the",
+    "domain are as near. failures: NaN or infinity where it should not be. In double precision unless float32 is said.",
+)
+
+
 def table(data: Mapping[str, Any]) -> list[str]:
-    """The chart as lines of text: what a terminal shows."""
+    """The chart as lines of text: what a terminal shows, with a legend."""
     rows = [("method", "call", "ns", "max rel", "p99 rel", "max abs", "failures")]
     for constant in (False, True):
         absolute = {(s.method, label(s.parameters), s.dtype): s.error for s in spots(data, "max_abs", constant)}
@@ -204,4 +211,5 @@ def table(data: Mapping[str, Any]) -> list[str]:
             away = absolute[s.method, label(s.parameters), s.dtype]
             rows.append((name, call, f"{s.ns:.3g}", f"{s.error:.1e}", f"{s.p99:.1e}", f"{away:.1e}", str(s.failures)))
     widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-    return ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+    lines = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+    return [*lines, "", *LEGEND]
