@@ -120,18 +120,19 @@ def closing(results: Sequence[Any], ledger: Any, gone: int, recorded: bool, seco
     >>> from types import SimpleNamespace as Made
     >>> result = Made(entry=Made(id="a:1", verdict="proved", settled=True))
     >>> closing([result], {"a:1": Made(verdict="confirmed")}, 0, False, 154)
-    '1 verdict: 1 differs from the record (2 min 34 s)'
+    '1 verdict: differs from the record (2 min 34 s)'
     """
     entries = [r.entry for r in results]
     differ = sum(e.id in ledger and ledger[e.id].verdict != e.verdict for e in entries)
     new = sum(e.id not in ledger for e in entries)
     unsettled = sum(not e.settled for e in entries)
-    told = [
-        *([f"{differ} differ{'s' * (differ == 1)} from the record"] if differ and not recorded else []),
-        *([f"{new} not in the record"] if new and not recorded else []),
-        *([f"{gone} in the record that nothing claims"] if gone and not recorded else []),
-        *([f"{unsettled} not settled"] if unsettled else []),
+    counted = [
+        (0 if recorded else differ, "differs from the record" if differ == 1 else "differ from the record"),
+        (0 if recorded else new, "not in the record"),
+        (0 if recorded else gone, "in the record that nothing claims"),
+        (unsettled, "not settled"),
     ]
+    told = [said if len(entries) == 1 else f"{number} {said}" for number, said in counted if number]
     head = f"{len(entries)} verdict{'s' * (len(entries) != 1)}" + ", recorded" * recorded
     same = "" if recorded else ", as recorded" if len(entries) == 1 else ", all as recorded"
     return f"{head}{': ' + ', '.join(told) if told else same} ({duration(seconds)})"

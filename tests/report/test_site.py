@@ -269,6 +269,21 @@ def test_what_cites_is_shown_as_the_record_has_it(site, parsed):
         assert {e.id for e in judged if e.verdict in ("proved", "confirmed", "misprint")} <= set(shown)
 
 
+def test_what_is_near_and_what_is_least_is_not_set_as_equal(parsed):
+    for key, label, between in (
+        ("deon2021", "28", "≈"), ("deon2016", "claim.44-accuracy", "≈"), ("xsec", "bessel-order", "≥"),
+        ("deon2016", "9", "="),
+    ):  # fmt: skip
+        page = parsed[f"{key}.html"]
+        item = next(a for a in articles(page) if a["attrs"]["id"] == label)
+        inside = [e for e in page.elements if item in e["within"]]
+        signs = [e["text"] for e in inside if e["tag"] == "mo" and e["attrs"].get("form") == "infix"]
+        assert signs == [between] * (2 if label == "28" else 1), label
+        labels = [e["text"] for e in inside if e["attrs"].get("class") == "label"]
+        near = [text for text in labels if "within" in text]
+        assert len(near) == (len(signs) if between == "≈" else 0), labels
+
+
 def test_formulas_in_prose_are_told_apart(parsed):
     item = next(a for a in articles(parsed["deon2016.html"]) if a["attrs"]["id"] == "18")
     said = [e["text"] for e in parsed["deon2016.html"].of_class("maths") if item in e["within"]]

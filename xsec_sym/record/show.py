@@ -105,11 +105,16 @@ def _formula(entry: Entry, name: str, form: str, wide: int) -> str:
         sides = [left] if right is None else [left, right]
         sign = relation.sign(entry)
         plain = ">=" if sign == relation.LEAST else sign
-        text = (form == "pretty" and _typeset(sides, sign, wide)) or f" {plain} ".join(map(str, sides))
+        text = (form == "pretty" and _typeset(sides, sign, wide)) or f" {plain} ".join(map(_in_line, sides))
         if form == "pretty" and "\n" not in text:
             # a formula wider than the page is easier to read in one line than torn into stacks
             text = textwrap.fill(text, wide, break_long_words=False, break_on_hyphens=False)
     return f"{entry.heading(name)}\n{textwrap.indent(text, ' ' * INDENT)}"
+
+
+def _in_line(side: Expr) -> str:
+    # the magnitude that is left as it is reads as any other
+    return str(side).replace("Magnitude(", "Abs(")
 
 
 def _typeset(sides: list[Expr], sign: str, wide: int) -> str:
