@@ -130,9 +130,10 @@ def test_the_project_s_own_must_be_in_the_record(mine, engine, tmp_path):
 
 def test_json(mine, engine, tmp_path):
     path = tmp_path / "out.json"
-    assert f"\nwrote {path}\n" in run(
-        "verify", "mine:3", "mine:4", "--derivations", mine, "--digits", 40, "--json", path
-    ).stdout
+    assert (
+        f"\nwrote {path}\n"
+        in run("verify", "mine:3", "mine:4", "--derivations", mine, "--digits", 40, "--json", path).stdout
+    )
     data = json.loads(path.read_text())
     assert data["digits"] == 40 and [e["id"] for e in data["entries"]] == ["mine:1", "mine:3", "mine:4"]
     entry = data["entries"][1]
@@ -157,7 +158,10 @@ def test_json(mine, engine, tmp_path):
         (["verify", "--cluster", "tcp://127.0.0.1:1", "--derivations", "/tmp"], ["--derivations cannot go"]),
         (["verify", "deon2016"], ["no claim deon2016, but a source: --source deon2016"]),
         (["show"], ["name at least one entry"]),
-        (["show", "nothing:1"], ["no entry nothing:1; if it is of a folder of your own", "--derivations PATH --record"]),
+        (
+            ["show", "nothing:1"],
+            ["no entry nothing:1; if it is of a folder of your own", "--derivations PATH --record"],
+        ),
         (["show", "sigma_ggx"], ["but a quantity: xsec chart sigma_ggx"]),
         (["show", "--derivations", "/nowhere", "a:1"], ["/nowhere is not a folder"]),
         (["show", "deon2016:twenty"], ["no entry deon2016:twenty"]),
@@ -358,7 +362,9 @@ def test_the_citation_names_the_sources():
     yaml = pytest.importorskip("yaml")
     cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))["references"]
     for source, reference in zip([s for s in SOURCES.values() if not s.own], cited, strict=True):
-        names = [f"{a['given-names']} {a['family-names']}" if "name" not in a else a["name"] for a in reference["authors"]]
+        names = [
+            f"{a['given-names']} {a['family-names']}" if "name" not in a else a["name"] for a in reference["authors"]
+        ]
         assert (reference["title"], tuple(names)) == (source.title, source.authors)
         for ours, theirs in (("year", "year"), ("doi", "doi"), ("volume", "volume"), ("number", "issue")):
             assert source.fields.get(ours) == (str(reference[theirs]) if theirs in reference else None)

@@ -1,4 +1,4 @@
-"""What stands between the sides of an entry: the kind of a claim says what was shown, and a reader must be told that."""
+"""What stands between the sides of an entry: a reader must be told what was shown of them."""
 
 import re
 
@@ -49,6 +49,11 @@ def test_every_form_of_a_text_says_near(form):
     assert f"\n  {NEAR}\n" in below and "\n  =\n" not in below
 
 
+def test_the_sign_stands_on_the_line_of_both_sides():
+    text = told(RECORD["deon2021:29"], RECORD, "pretty", 110)
+    assert text.count(f"\n  H^(1)(μ, 1) {NEAR} ℯ ") == 2, "not beside the exponent"
+
+
 @pytest.mark.parametrize(
     ("name", "side", "words"),
     [
@@ -88,7 +93,9 @@ def test_inequalities_of_one_term_and_of_a_sign(source):
 
 
 def test_what_looks_like_an_inequality_and_is_an_equation(source):
-    claim = source.claim("e", "t", left=abs(u), printed=u, corrected=abs(u) * 1, edit="bars", where=[interval(u, -1, 1)])
+    claim = source.claim(
+        "e", "t", left=abs(u), printed=u, corrected=abs(u) * 1, edit="bars", where=[interval(u, -1, 1)]
+    )
     entry = Entry(id="r:1", source="r", label="1", title="t", verdict="misprint", left="f", printed="g", corrected="h")
     assert sign(entry) == EQUAL and entry.latex() == "f = g"
     assert Entry.of(claim, Verdict("misprint")).latex() == r"\left|{u}\right| = u"

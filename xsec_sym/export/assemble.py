@@ -92,7 +92,9 @@ def _entry(record: Record, name: str) -> Entry:
             ) from None
         if any(e.source == name for e in record.values()):
             raise Refusal(f"{name} is a source: export its equations by their ids") from None
-        raise Refusal(f"there is nothing to export by the name {name}{nearest(name, [*RECIPES, *kernels.__all__, *record])}") from None
+        raise Refusal(
+            f"there is nothing to export by the name {name}{nearest(name, [*RECIPES, *kernels.__all__, *record])}"
+        ) from None
 
 
 def _branches(entry: Entry, record: Record) -> list[Branch]:

@@ -89,7 +89,7 @@ class Run:
                 tick(name)
 
     def results(self) -> list[Result]:
-        """A result for every claim whose verdict has come in, and for the wholes of these, in the order of the claims."""
+        """A result for every claim whose verdict has come in, and for the wholes of these, in their order."""
         claims, ledger, earned = self.claims, self.ledger, dict(self.earned)
         given = {job.id for job in self.jobs if job.certificate}
         # a replay need not hand back the certificate that it was given

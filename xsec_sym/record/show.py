@@ -119,23 +119,25 @@ def _in_line(side: Expr) -> str:
 
 def _typeset(sides: list[Expr], sign: str, wide: int) -> str:
     """Side by side where that fits, one below the other where not; nothing if even so it is too wide."""
-    from sympy import pretty
+    from sympy.printing.pretty.pretty import PrettyPrinter, pretty_use_unicode
 
-    shown = [pretty(side, use_unicode=True, num_columns=10_000) for side in sides]
-    for text in (_beside(*shown, sign) if len(shown) == 2 else shown[0], f"\n{sign}\n".join(shown)):
+    before = pretty_use_unicode(True)
+    try:
+        # pictures know on which of their lines a sign has to stand
+        pictures = [PrettyPrinter({"num_columns": 10_000})._print(side) for side in sides]
+    finally:
+        pretty_use_unicode(before)
+    beside = str(_beside(pictures[0], pictures[1], sign)) if len(pictures) == 2 else str(pictures[0])
+    for text in (beside, f"\n{sign}\n".join(map(str, pictures))):
         if max(map(len, text.splitlines())) <= wide:
             return text
     return ""
 
 
-def _beside(left: str, right: str, sign: str) -> str:
+def _beside(left: Any, right: Any, sign: str) -> Any:
     from sympy.printing.pretty.stringpict import stringPict
 
-    def picture(text: str) -> Any:
-        lines = text.splitlines()
-        return stringPict(text, len(lines) // 2)
-
-    return str(stringPict(*picture(left).right(f" {sign} ", picture(right))))
+    return stringPict(*left.right(f" {sign} ", right))
 
 
 def _field(name: str, text: str) -> str:
