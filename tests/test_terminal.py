@@ -331,7 +331,7 @@ def children(pid):
 
 
 def interrupted(folder, *arguments, ready):
-    """What is left of a command that SIGINT met when it was ready: its code, its words on both streams, its processes."""
+    """What is left of a command that SIGINT met when it was ready: its code, its words, its processes."""
     with subprocess.Popen([*XSEC, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder,
                           env=PLAIN | {"PYTHONPATH": str(Path(__file__).parent.parent)}) as process:  # fmt: skip
         until = time.monotonic() + 30

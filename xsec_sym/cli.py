@@ -130,8 +130,8 @@ def verify(
             if out is not None:
                 verifying.write_json(out, entries, digits)
     except verifying.Stopped as stopped:
-        if sys.stdout.isatty():
-            click.echo()
+        if sys.stdout.isatty() and not sys.stderr.isatty():
+            click.echo()  # ^C stands on the line, which the bar would have cleared
         verifying.print_verdicts(stopped.entries)
         raise
     verifying.print_verdicts(entries)

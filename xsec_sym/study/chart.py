@@ -195,8 +195,8 @@ def _where(data: Mapping[str, Any]) -> str:
 
 LEGEND = (
     "arrays: every argument is an array; constant: those that a scene sets once are single numbers.",
-    "ns: nanoseconds a value. max rel, max abs: the largest errors found, at troublesome places too; p99 rel: 99 of 100",
-    "values all over the domain are as near. failures: NaN or infinity where it should not be. In double precision",
+    "ns: nanoseconds a value. max rel, max abs: the largest errors found, at troublesome places too; p99 rel: 99 of",
+    "100 values all over the domain are as near. failures: NaN or infinity where it should not be. In double precision",
     "unless float32 is said.",
 )
 
