@@ -136,7 +136,9 @@ class Step:
         ``by`` names a lemma that shows the sign of each term; a lemma |Y| = Y is read ``back``.
         """
         chosen = terms or (expression,)
-        said = f"the sign of {expression} is that of {' + '.join(f'({t})' for t in chosen)}"
+        said = f"the sign of {expression} is that of {' + '.join(f'({t})' for t in terms)}"
+        if not terms:
+            said = f"the sign of {expression}" + (f", by {by if isinstance(by, str) else by.id}" if by else " shows")
         data = {"expression": sympify(expression), "terms": [sympify(t) for t in chosen],
                 "inner": [sympify(i) for i in inside]}  # fmt: skip
         if by is not None:
