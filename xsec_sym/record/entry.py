@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from xsec_sym.proof.verdict import Verdict
 
 SIDES = ("left", "printed", "corrected")
+SIGNS = {"=": "=", "≈": r"\approx"}
 # What `xsec verify --json` tells of an entry; the record keeps the encoded expressions and the steps as well.
 PUBLIC = ("id", "source", "section", "label", "title", "kind", "verdict", "left", "printed", "corrected", "edit",
           "domain", "reading", "digits", "witness", "evidence", "mutants", "seconds", "parts", "note")  # fmt: skip
@@ -148,10 +149,22 @@ class Entry:
 
     # --- display -----------------------------------------------------------------------------------
 
+    def relation(self, side: str = "printed") -> str:
+        """What stands between the two sides: "=", "≈" where they are only near, "≥" for an inequality.
+
+        An inequality X >= 0 is kept as |X| = X, and told as "X ≥ 0".
+        """
+        if self.kind in ("approximation", "accuracy"):
+            return "≈"
+        right = getattr(self, side)
+        return "≥" if right is not None and self.left == rf"\left|{{{right}}}\right|" else "="
+
     def latex(self, side: str = "printed") -> str:
         """The whole equation with its printed, or its corrected, right side."""
-        right = getattr(self, side)
-        return self.left if right is None else f"{self.left} = {right}"
+        right, relation = getattr(self, side), self.relation(side)
+        if right is None:
+            return self.left
+        return rf"{right} \geq 0" if relation == "≥" else rf"{self.left} {SIGNS[relation]} {right}"
 
     def bibtex(self) -> str:
         """A BibTeX entry by which this verdict can be cited; `xsec_sym.record.sources.bibtex` has those of the sources.
@@ -164,9 +177,23 @@ class Entry:
 
         return cite(self)
 
+    def nearness(self) -> str:
+        """How near the sides are to each other, where that was stated; empty for an equation."""
+        within = self.evidence.get("within", "") if self.relation() == "≈" else ""
+        if not within[:1].isdigit():
+            return within
+        return f"within {within}" + (" of the left side" if self.evidence.get("relative") else "")
+
     def heading(self, name: str) -> str:
         """What a side is called: it corrects something only where something is printed."""
-        return "statement" if name == "corrected" and self.printed is None else name
+        if self.printed is not None:
+            return name
+        return "statement" if name == "corrected" else "quantity"
+
+    @property
+    def wordless(self) -> bool:
+        """Whether all is said in words: there is no formula to show."""
+        return self.left in ("", "0") and self.printed is None and self.corrected is None
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex('printed' if self.corrected is None else 'corrected')}$"
@@ -175,7 +202,13 @@ class Entry:
         rows = [("printed", f"$\\displaystyle {escape(self.latex())}$")] if self.printed is not None else []
         if self.corrected is not None:
             rows.append((self.heading("corrected"), f"$\\displaystyle {escape(self.latex('corrected'))}$"))
-        said = [("edit", self.edit), ("where", self.domain), ("reading", self.reading), ("note", self.note)]
+        said = [
+            ("edit", self.edit),
+            ("near", self.nearness()),
+            ("where", self.domain),
+            ("reading", self.reading),
+            ("note", self.note),
+        ]
         if self.verdict == "confirmed" and self.digits:
             said.append(("digits", str(self.digits)))
         if self.witness:

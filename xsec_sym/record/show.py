@@ -52,10 +52,11 @@ def told(
     blocks += [
         _formula(entry, name, form, wide)
         for name in ("printed", "corrected")
-        if getattr(entry, name) is not None or (name == "printed" and entry.left and entry.corrected is None)
+        if getattr(entry, name) is not None or (name == "printed" and not entry.wordless and entry.corrected is None)
     ]
     facts = [
         ("change", entry.edit),
+        ("near", entry.nearness()),
         ("where", entry.domain),
         ("reading", entry.reading),
         ("note", entry.note),
@@ -98,36 +99,41 @@ def _formula(entry: Entry, name: str, form: str, wide: int) -> str:
     if form != "latex":
         with contextlib.suppress(ValueError, KeyError, TypeError):
             left, right = entry.side("left"), entry.side(name)
+    relation = entry.relation(name)
     if left is None or (right is None and getattr(entry, name) is not None):
         text = entry.latex(name)
     else:
+        if relation == "≥":
+            from sympy import S
+
+            left, right = right, S.Zero
         sides = [left] if right is None else [left, right]
-        text = (form == "pretty" and _typeset(sides, wide)) or " = ".join(map(str, sides))
+        text = (form == "pretty" and _typeset(sides, relation, wide)) or f" {relation} ".join(map(str, sides))
         if form == "pretty" and "\n" not in text:
             # a formula wider than the page is easier to read in one line than torn into stacks
             text = textwrap.fill(text, wide, break_long_words=False, break_on_hyphens=False)
     return f"{entry.heading(name)}\n{textwrap.indent(text, ' ' * INDENT)}"
 
 
-def _typeset(sides: list[Expr], wide: int) -> str:
+def _typeset(sides: list[Expr], relation: str, wide: int) -> str:
     """Side by side where that fits, one below the other where not; nothing if even so it is too wide."""
     from sympy import pretty
 
     shown = [pretty(side, use_unicode=True, num_columns=10_000) for side in sides]
-    for text in (_beside(*shown) if len(shown) == 2 else shown[0], "\n=\n".join(shown)):
+    for text in (_beside(shown[0], shown[1], relation) if len(shown) == 2 else shown[0], f"\n{relation}\n".join(shown)):
         if max(map(len, text.splitlines())) <= wide:
             return text
     return ""
 
 
-def _beside(left: str, right: str) -> str:
+def _beside(left: str, right: str, relation: str) -> str:
     from sympy.printing.pretty.stringpict import stringPict
 
     def picture(text: str) -> Any:
         lines = text.splitlines()
         return stringPict(text, len(lines) // 2)
 
-    return str(stringPict(*picture(left).right(" = ", picture(right))))
+    return str(stringPict(*picture(left).right(f" {relation} ", picture(right))))
 
 
 def _field(name: str, text: str) -> str:

@@ -83,23 +83,27 @@ class Item:
     def formulas(self) -> list[tuple[str, str, Markup]]:
         """A heading, a class and the formula, for each form; both forms of a misprint with their difference."""
         e = self.entry
-        if not e.left and e.printed is None and e.corrected is None:
+        if e.wordless:
             return []
         if e.printed is not None and e.corrected is not None:
             printed, corrected = tree(e.printed), tree(e.corrected)
             mark(printed, corrected)
             return [
-                ("in print", "print", self._equation(printed)),
-                ("what holds", "holds", self._equation(corrected)),
+                ("in print", "print", self._equation(printed, "printed")),
+                ("what holds", "holds", self._equation(corrected, "corrected")),
             ]
         right = e.printed if e.corrected is None else e.corrected
         if e.printed is None and e.label.startswith("T1.") and e.corrected is not None:
-            return [("blank in print; what holds", "holds", self._equation(tree(e.corrected)))]
+            return [("blank in print; what holds", "holds", self._equation(tree(e.corrected), "corrected"))]
+        side = "printed" if e.corrected is None else "corrected"
         heading, kind = ("as stated", "print") if self.fails else ("", "plain")
-        return [(heading, kind, self._equation(None if right is None else tree(right)))]
+        return [(heading, kind, self._equation(None if right is None else tree(right), side))]
 
-    def _equation(self, right: Any) -> Markup:
-        return Markup(equation(tree(self.entry.left) if self.entry.left else None, right))
+    def _equation(self, right: Any, side: str) -> Markup:
+        relation = self.entry.relation(side)
+        if relation == "≥":
+            return Markup(equation(right, tree("0"), relation))
+        return Markup(equation(tree(self.entry.left) if self.entry.left else None, right, relation))
 
     # --- facts ------------------------------------------------------------------------------------------
 
@@ -111,6 +115,7 @@ class Item:
         e = self.entry
         found = [
             ("change", self.linked(e.edit)),
+            ("near", Markup.escape(e.nearness())),
             ("where", words.symbols(e.domain)),
             ("reading", self.linked(e.reading)),
             ("note", self.linked(e.note if e.note != e.reading else "")),
