@@ -70,9 +70,18 @@ def test_verify_prints_a_line_for_each(mine, engine):
     result = run("verify", *IDS, "--derivations", mine, "--jobs", 1)
     assert result.exit_code == 0 and result.stderr == ""
     assert verdicts(result) == {"mine:1": "proved", "mine:2": "confirmed", "mine:3": "proved", "mine:4": "proved"}
-    assert result.stdout.splitlines()[1].split() == ["mine:2", "confirmed", "30", "9", "1.50"]
+    assert result.stdout.splitlines()[0].split() == ["id", "verdict", "digits", "mutants", "seconds"]
+    assert result.stdout.splitlines()[2].split() == ["mine:2", "confirmed", "30", "9", "1.50"]
     assert "   3 proved\n   1 confirmed\n" in result.stdout
     assert "mine:1: proved, and not in the record" in result.stdout
+    assert last(result) == "4 verdicts: 4 not in the record"
+
+
+def last(result):
+    """The closing sentence, without the time."""
+    said, seconds = result.stdout.splitlines()[-1].split("; ")
+    assert float(seconds.removesuffix(" s")) >= 0
+    return said
 
 
 def test_record_then_compare(mine, engine, tmp_path):
@@ -81,13 +90,14 @@ def test_record_then_compare(mine, engine, tmp_path):
     kept = tmp_path / "mine" / "record"
     assert sorted(os.listdir(kept)) == ["mine.json", "mine.proofs.json"] and not (tmp_path / "data").exists()
     again = run("verify", "--source", "mine", "--derivations", mine)
-    assert again.exit_code == 0 and "record" not in again.stdout
+    assert again.exit_code == 0 and last(again) == "4 verdicts: all as recorded"
 
     engine["mine:1"] = Verdict("confirmed", digits=30)
     before = (kept / "mine.json").read_text()
     differs = run("verify", "mine:1", "mine:2", "--derivations", mine)
     assert differs.exit_code == 1
     assert "mine:1: confirmed, while the record says proved" in differs.stdout
+    assert last(differs) == "2 verdicts: 1 as recorded, 1 other than recorded"
     assert (kept / "mine.json").read_text() == before, "only --record changes the record"
     assert run("verify", "mine:1", "--derivations", mine, "--record").exit_code == 0
     assert [e.verdict for e in Ledger(kept).values()] == ["confirmed", "proved", "proved", "proved"]
@@ -98,6 +108,7 @@ def test_what_is_not_settled_is_recorded_and_fails(mine, engine, tmp_path):
     engine["mine:1"] = Verdict("inconclusive", note="too\nhard")
     result = run("verify", "mine:1", "--derivations", mine, "--record")
     assert result.exit_code == 1 and "mine:1: too hard\n" in result.stdout
+    assert last(result) == "1 verdict: recorded, 1 not settled"
     assert Ledger(tmp_path / "mine" / "record")["mine:1"].verdict == "inconclusive"
     assert run("verify", "mine:1", "--derivations", mine).exit_code == 1, "it never counts as passed"
 
@@ -107,6 +118,7 @@ def test_what_no_derivation_claims_any_more(mine, engine, tmp_path):
     (tmp_path / "mine" / "paper.py").write_text(MINE[: MINE.index("paper.whole")])
     result = run("verify", "--source", "mine", "--derivations", mine)
     assert result.exit_code == 1 and "mine:4: in the record, and no derivation claims it" in result.stdout
+    assert last(result) == "3 verdicts: 3 as recorded, 1 gone"
     assert run("verify", "--source", "mine", "--derivations", mine, "--record").exit_code == 0
     assert "mine:4" not in Ledger(tmp_path / "mine" / "record")
 
@@ -117,6 +129,25 @@ def test_the_project_s_own_must_be_in_the_record(mine, engine, tmp_path):
     assert run("verify", first.id, "--record").exit_code == 0
     assert (tmp_path / "data" / f"{first.source}.json").exists()
     assert run("verify", first.id).exit_code == 0
+
+
+def test_what_is_done_is_told_on_ctrl_c(mine, monkeypatch):
+    def interrupted(claims, chosen, ledger, settings, *, tick, **rest):
+        tick("mine:1", Verdict("proved", mutants=9, seconds=1.5))
+        tick("mine:3", Verdict("inconclusive", note="too hard"))
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("xsec_sym.record.run.verify_all", interrupted)
+    result = run("verify", "--source", "mine", "--derivations", mine)
+    assert result.exit_code == 130 and result.stderr == "xsec: interrupted\n"
+    assert verdicts(result) == {"mine:1": "proved", "mine:3": "inconclusive"}
+    assert result.stdout.endswith("mine:3: too hard\n2 of 4 verdicts, and none of them compared with the record\n")
+
+
+def test_a_proof_that_does_not_go_through_is_told(mine, engine):
+    engine["mine:1"] = Verdict("confirmed", digits=30, note="the proof does not go through: 1 is not 2")
+    result = run("verify", "mine:1", "--derivations", mine)
+    assert result.exit_code == 0 and "\nmine:1: the proof does not go through: 1 is not 2\n" in result.stdout
 
 
 def test_json(mine, engine, tmp_path):

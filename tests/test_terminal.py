@@ -226,6 +226,13 @@ def test_bash_itself(tmp_path):
     ], done.stderr
 
 
+@pytest.mark.parametrize("arguments", [["show", "deon2016"], ["export"], ["chart"], []])
+def test_a_reader_who_leaves_early_is_no_mistake(arguments):
+    with subprocess.Popen([*XSEC, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=PLAIN) as left:
+        left.stdout.close()
+        assert left.wait(60) == 141 and left.stderr.read() == b""
+
+
 # --- Ctrl-C ----------------------------------------------------------------------------------------------
 
 SLOW = """import time
@@ -248,7 +255,7 @@ def interrupted(folder, *arguments, ready):
     """What is left of a command that SIGINT met when it was ready: its exit code, what it said, its processes."""
     with subprocess.Popen([*XSEC, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder,
                           env=PLAIN | {"PYTHONPATH": str(Path(__file__).parent.parent)}) as process:  # fmt: skip
-        until = time.monotonic() + 30
+        until = time.monotonic() + 120
         while not ready(process.pid) and process.poll() is None and time.monotonic() < until:
             time.sleep(0.02)
         time.sleep(0.2)

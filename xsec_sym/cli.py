@@ -93,41 +93,53 @@ def verify(
 
     Exit code 0 when every verdict is settled and is the recorded one, 1 when any differs or is not settled.
     """
-    with output(target) as out, progress("reading the derivations") as steps:
-        from xsec_sym import verifying
-        from xsec_sym.record import show
-        from xsec_sym.record.run import Settings, differences, to_record, verify_all, with_parts
+    from time import perf_counter
 
-        if cluster and derivations:
-            complain("--derivations cannot go with --cluster: its machines do not have that folder")
-        claims = verifying.claims_of(derivations)
-        ledger = _ledger(derivations)
-        chosen = verifying.chosen_ids(ids, sources, claims, ledger)
-        settings = Settings(digits, seed, fresh, jobs or os.cpu_count() or 1)
-        execute = verifying.on_cluster(cluster, settings) if cluster else None
-        effort = verifying.efforts(with_parts(claims, chosen), ledger)
-        steps.expect(len(effort), sum(effort.values()))
-        results = verify_all(claims, chosen, ledger, settings, execute=execute, now=lambda names: steps.now(*names),
-                             tick=lambda name: steps.done(effort[name]))  # fmt: skip
-        entries = [r.entry for r in results]
-        restricted = set(sources) if sources else set() if ids else {e.source for e in ledger.values()}
-        met = [e.id for e in ledger.values() if e.source in restricted]
-        found = differences(results, ledger, claims, met)
-        # a claim of the user's own is new at first, and that is no fault
-        own = {r.entry.id for r in results if not claims[r.entry.id].module.startswith("derivations")}
-        faults = [said for said in found if said.partition(": ")[0] not in own - set(ledger)]
-        if record:
-            verifying.keep(
-                results, to_record(results, ledger), ledger, claims, [n for n in met if n not in claims], own
-            )
-            faults = []
-        if out is not None:
-            verifying.write_json(out, entries, digits)
+    from xsec_sym import verifying
+
+    begun, met, effort = perf_counter(), {}, {}
+    try:
+        with output(target) as out, progress("reading the derivations") as steps:
+            from xsec_sym.record import show
+            from xsec_sym.record.run import Settings, differences, to_record, verify_all, with_parts
+
+            if cluster and derivations:
+                complain("--derivations cannot go with --cluster: its machines do not have that folder")
+            claims = verifying.claims_of(derivations)
+            ledger = _ledger(derivations)
+            chosen = verifying.chosen_ids(ids, sources, claims, ledger)
+            settings = Settings(digits, seed, fresh, jobs or os.cpu_count() or 1)
+            execute = verifying.on_cluster(cluster, settings) if cluster else None
+            effort = verifying.efforts(with_parts(claims, chosen), ledger)
+            steps.expect(len(effort), sum(effort.values()))
+
+            def tick(name: str, verdict: Any) -> None:
+                met[name] = verdict
+                steps.done(effort[name])
+
+            results = verify_all(claims, chosen, ledger, settings, execute=execute, tick=tick,
+                                 now=lambda names: steps.now(*names))  # fmt: skip
+            entries = [r.entry for r in results]
+            restricted = set(sources) if sources else set() if ids else {e.source for e in ledger.values()}
+            expected = [e.id for e in ledger.values() if e.source in restricted]
+            found = differences(results, ledger, claims, expected)
+            # a claim of the user's own is new at first, and that is no fault
+            own = {r.entry.id for r in results if not claims[r.entry.id].module.startswith("derivations")}
+            faults = [said for said in found if said.partition(": ")[0] not in own - set(ledger)]
+            gone = [n for n in expected if n not in claims]
+            last = verifying.closing(entries, gone, ledger, record, perf_counter() - begun)
+            if record:
+                verifying.keep(results, to_record(results, ledger), ledger, claims, gone, own)
+                faults = []
+            if out is not None:
+                verifying.write_json(out, entries, digits)
+    except KeyboardInterrupt:
+        if effort:
+            verifying.print_so_far(met, claims, len(effort))
+        raise
     verifying.print_verdicts(entries)
-    for said in [*show.summary(entries), *([] if record and not found else found)]:
+    for said in [*show.summary(entries), *([] if record and not found else found), last]:
         click.echo(said)
-    if record:
-        click.echo("recorded")
     context.exit(1 if faults or not all(e.settled for e in entries) else 0)
 
 

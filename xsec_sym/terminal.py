@@ -18,6 +18,8 @@ import click
 from xsec_sym import guide
 
 INTERRUPTED = 130
+# As of a program that a reader's end ends, such as that of `| head`.
+UNREAD = 141
 COMPLETE = "_XSEC_COMPLETE"
 
 
@@ -71,6 +73,10 @@ class Program(click.Group):
         try:
             with _insisting():
                 return super().invoke(context)
+        except BrokenPipeError:
+            _end_children()
+            _EXIT.append(UNREAD)
+            raise click.exceptions.Exit(UNREAD) from None
         except KeyboardInterrupt:
             # who presses again would only disturb the tidying
             with contextlib.suppress(ValueError):

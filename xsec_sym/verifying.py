@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
-from typing import Any, TextIO
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TextIO
 
 from xsec_sym.terminal import coloured, complain, nearest_or_all, one_line, say
+
+if TYPE_CHECKING:
+    from xsec_sym.proof.claim import Claim
+    from xsec_sym.proof.verdict import Verdict
+    from xsec_sym.record.store import Ledger
 
 
 def efforts(names: Sequence[str], ledger: Any) -> dict[str, float]:
@@ -72,7 +77,7 @@ def write_json(out: TextIO, entries: list[Any], digits: int) -> None:
     out.write(layout(data) + "\n")
 
 
-def print_verdicts(entries: list[Any]) -> None:
+def print_verdicts(entries: Sequence[Any]) -> None:
     from xsec_sym.record import show
 
     if coloured():
@@ -84,5 +89,40 @@ def print_verdicts(entries: list[Any]) -> None:
         for line in show.lines(entries):
             say(line)
     for entry in entries:
-        if not entry.settled and entry.note:
+        # what is confirmed has a note where its proof does not go through
+        if entry.note and (not entry.settled or entry.verdict == "confirmed"):
             say(f"{entry.id}: {one_line(entry.note)}")
+
+
+def print_so_far(met: Mapping[str, Verdict], claims: Mapping[str, Claim], expected: int) -> None:
+    """What was found before somebody pressed Ctrl-C."""
+    from xsec_sym.record.entry import Entry
+
+    said = [
+        Entry(id=name, source=claims[name].source, label=claims[name].label, title=claims[name].title,
+              verdict=v.verdict, digits=v.digits, mutants=v.mutants, seconds=round(v.seconds, 2), note=v.note)
+        for name, v in met.items()
+    ]  # fmt: skip
+    if said:
+        print_verdicts(said)
+    if expected:
+        say(f"{len(said)} of {expected} verdicts, and none of them compared with the record")
+
+
+def closing(entries: Sequence[Any], gone: Sequence[str], ledger: Ledger, recorded: bool, seconds: float) -> str:
+    """The last line: whether all is as it was recorded. ``ledger`` is the record as it was before; ``gone`` are the ids
+    in it that nothing claims any more.
+    """
+    new = sum(e.id not in ledger for e in entries)
+    other = sum(e.id in ledger and ledger[e.id].verdict != e.verdict for e in entries)
+    open_ = sum(not e.settled for e in entries)
+    same = len(entries) - new - other
+    if recorded:
+        parts = ["recorded"]
+    elif same == len(entries) and not gone:
+        parts = ["all as recorded" if same != 1 else "as recorded"]
+    else:
+        parts = [f"{same} as recorded"] * bool(same) + [f"{other} other than recorded"] * bool(other)
+        parts += [f"{new} not in the record"] * bool(new) + [f"{len(gone)} gone"] * bool(gone)
+    parts += [f"{open_} not settled"] * bool(open_)
+    return f"{len(entries)} verdict{'s' * (len(entries) != 1)}: {', '.join(parts)}; {seconds:.1f} s"

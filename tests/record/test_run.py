@@ -34,7 +34,7 @@ def test_a_whole_brings_its_parts_and_carries_the_worst(claims, ledger, engine):
     engine[TWO] = Verdict("confirmed", digits=30)
     seen = []
     running = []
-    results = verify_all(claims, [BOTH], ledger, Settings(), tick=seen.append, now=running.append)
+    results = verify_all(claims, [BOTH], ledger, Settings(), tick=lambda name, _: seen.append(name), now=running.append)
     assert running == [[ONE], [TWO], []]
     assert words(results) == {ONE: "proved", TWO: "confirmed", BOTH: "confirmed"}
     assert sorted(seen) == [ONE, TWO, BOTH]

@@ -56,13 +56,13 @@ def verify_all(
     settings: Settings,
     *,
     execute: Execute | None = None,
-    tick: Callable[[str], None] = lambda name: None,
+    tick: Callable[[str, Verdict], None] = lambda name, verdict: None,
     now: Callable[[list[str]], None] = lambda names: None,
 ) -> list[Result]:
     """A result for every chosen claim, and for the parts of chosen wholes, in the order of the claims.
 
-    ``tick`` is called with an id whenever a verdict comes in, ``now`` with the ids in work whenever these change,
-    if they are on this machine.
+    ``tick`` is called with an id and its verdict whenever one comes in, ``now`` with the ids in work whenever these
+    change, if they are on this machine.
     """
     wanted = with_parts(claims, chosen)
     keys = Keys(claims)
@@ -80,7 +80,7 @@ def verify_all(
     earned: dict[str, Verdict] = {}
     for name, verdict in (execute or local(claims, settings, now))(jobs):
         earned[name] = verdict
-        tick(name)
+        tick(name, verdict)
     # a replay need not hand back the certificate that it was given
     for job in jobs:
         if job.certificate and earned[job.id].certificate is None and earned[job.id].verdict == ledger[job.id].verdict:
@@ -89,7 +89,7 @@ def verify_all(
     for name in wanted:
         if claims[name].kind == "whole":
             earned[name] = whole(name, claims, earned)
-            tick(name)
+            tick(name, earned[name])
     results, given = [], {job.id for job in jobs if job.certificate}
     for name in wanted:
         verdict = earned[name]

@@ -196,6 +196,9 @@ def answer(verdict: Verdict, paint: Paint = lambda text, colour: text) -> str:
     return "\n".join(lines)
 
 
+COLUMNS = ("id", "verdict", "digits", "mutants", "seconds")
+
+
 def rows(entries: Iterable[Entry]) -> list[tuple[str, str, str, str, str]]:
     return [
         (e.id, e.verdict, str(e.digits or ""), str(e.mutants or ""), f"{e.seconds:.2f}" if e.seconds else "")
@@ -205,9 +208,9 @@ def rows(entries: Iterable[Entry]) -> list[tuple[str, str, str, str, str]]:
 
 def lines(entries: Iterable[Entry]) -> list[str]:
     """The table for a pipe: one line an entry, whatever the width of a terminal."""
-    found = rows(entries)
-    wide = max((len(r[0]) for r in found), default=0)
-    return [f"{r[0]:<{wide}}  {r[1]:<12}  {r[2]:>3}  {r[3]:>3}  {r[4]:>8}".rstrip() for r in found]
+    found = [COLUMNS, *rows(entries)]
+    wide = max(len(r[0]) for r in found)
+    return [f"{r[0]:<{wide}}  {r[1]:<12}  {r[2]:>6}  {r[3]:>7}  {r[4]:>7}".rstrip() for r in found]
 
 
 def table(entries: Iterable[Entry]) -> Table:
@@ -215,9 +218,9 @@ def table(entries: Iterable[Entry]) -> Table:
     from rich.table import Table
 
     made = Table(box=None, pad_edge=False)
-    for name in ("id", "verdict"):
+    for name in COLUMNS[:2]:
         made.add_column(name, no_wrap=True)
-    for name in ("digits", "mutants", "seconds"):
+    for name in COLUMNS[2:]:
         made.add_column(name, justify="right")
     for row in rows(entries):
         made.add_row(row[0], f"[{colour(row[1])}]{row[1]}[/]", *row[2:])
