@@ -289,17 +289,26 @@ def exporter(monkeypatch):
             raise Refusal("bad is not verified:\nno export")
         return f"# {' '.join(names)} {dtype}\n"
 
-    fake = SimpleNamespace(module=module, Refusal=Refusal, names=lambda: ["sigma"])
+    fake = SimpleNamespace(module=module, Refusal=Refusal, names=lambda record: ["sigma  area", "deon2016:7  flat"])
     monkeypatch.setitem(sys.modules, "xsec_sym.export", fake)
 
 
 def test_export(exporter, tmp_path):
-    assert run("export").stdout == "sigma\n"
+    listed = run("export").stdout.splitlines()
+    assert [line for line in listed if line[0] != "#"] == ["sigma  area", "deon2016:7  flat"]
+    assert listed[0].startswith("# functions") and listed[2] == "# deon2016" and "scipy.special" in listed[4]
     assert run("export", "a", "b", "--dtype", "float32").stdout == "# a b float32\n"
-    assert run("export", "a", "-o", tmp_path / "k.py").exit_code == 0
+    written = run("export", "a", "-o", tmp_path / "k.py")
+    assert (written.exit_code, written.stdout, written.stderr) == (0, "", f"wrote {tmp_path / 'k.py'}\n")
     assert (tmp_path / "k.py").read_text() == "# a float64\n"
     refused(run("export", "bad", "-o", tmp_path / "no.py"), "bad is not verified: no export")
     assert os.listdir(tmp_path) == ["k.py"]
+
+
+def test_a_kernel_made_by_hand_is_pointed_to():
+    refused(run("export", "lambda_beckmann"), "from xsec_sym.kernels import lambda_beckmann; xsec plan writes a module")
+    refused(run("export", "smith_g1"), "from xsec_sym.kernels import smith_g1")
+    assert guide.made_by_hand("sigma_inv1pu2") == guide.made_by_hand("nothing") == ""
 
 
 def test_export_and_report_take_what_is_one_s_own(mine, engine, exporter, tmp_path, monkeypatch):
@@ -323,7 +332,9 @@ def xsec(*arguments, **more):
 
 def test_as_a_program(tmp_path):
     done = xsec("show", "nothing:1")
-    assert done.returncode == 2 and done.stderr == "xsec: there is no entry nothing:1\n"
+    assert done.returncode == 2 and done.stderr == (
+        "xsec: there is no entry nothing:1; one of your own wants --derivations PATH, and its verdict recorded\n"
+    )
     (tmp_path / "paper.py").write_text(MINE[: MINE.index('paper.claim("3"')])
     done = xsec("verify", "--source", "mine", "--derivations", str(tmp_path), "--jobs", "1")
     assert done.stderr == "" and "mine:1" in done.stdout
@@ -378,7 +389,8 @@ def test_examples_that_are_quick_work(line, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     words = shlex.split(line)[1:]
     result = run(*words)
-    assert result.stderr == "" and result.exit_code == (1 if "sqrt(x**2)" in words else 0)
+    assert result.stderr == ("wrote kernel.py\n" if "-o" in words else "")
+    assert result.exit_code == (1 if "sqrt(x**2)" in words else 0)
     assert result.stdout != "" or os.listdir(tmp_path) == [words[words.index("-o") + 1]]
 
 

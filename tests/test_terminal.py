@@ -5,6 +5,7 @@ import io
 import os
 import pty
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -208,22 +209,56 @@ def test_how_to_switch_it_on_is_told_on_a_terminal():
     assert "switch it on" not in piped("completion", "zsh").stdout + piped("completion", "zsh").stderr
 
 
-def test_bash_itself(tmp_path):
+@pytest.fixture
+def asked(tmp_path):
+    """What a shell prints that has completion switched on, and `xsec` on its path."""
     (tmp_path / "xsec").write_text(f'#!/bin/sh\nexec "{sys.executable}" -m xsec_sym.cli "$@"\n')
     (tmp_path / "xsec").chmod(0o755)
-    asked = ["xsec show deon2016:T1.u2.s", "xsec sho", "xsec show 'deon2016:T1.u2.s1"]
-    lines = [
-        f'COMP_LINE="{a}"; COMP_POINT=${{#COMP_LINE}}; _xsec_completion xsec; echo "${{COMPREPLY[*]}}"' for a in asked
+    environment = {**PLAIN, "PATH": f"{tmp_path}:{os.environ['PATH']}", "HOME": str(tmp_path)}
+
+    def ask(shell, *lines):
+        if shutil.which(shell[0]) is None:
+            pytest.skip(f"{shell[0]} is not installed")
+        done = subprocess.run([*shell, "-c", "\n".join(lines)], capture_output=True, text=True, env=environment)
+        assert done.stderr == ""
+        return done.stdout.splitlines()
+
+    return ask
+
+
+def test_bash_itself(asked):
+    lines = ["xsec show deon2016:T1.u2.s", "xsec sho", "xsec show 'deon2016:T1.u2.s1"]
+    tried = [
+        f'COMP_LINE="{a}"; COMP_POINT=${{#COMP_LINE}}; _xsec_completion xsec; echo "${{COMPREPLY[*]}}"' for a in lines
     ]
-    text = "\n".join(['eval "$(xsec completion bash)"', "complete -p xsec", *lines])
-    environment = {**PLAIN, "PATH": f"{tmp_path}:{os.environ['PATH']}"}
-    done = subprocess.run(["bash", "--norc", "-c", text], capture_output=True, text=True, env=environment)
-    assert done.stdout.splitlines() == [
+    assert asked(["bash", "--norc"], 'eval "$(xsec completion bash)"', "complete -p xsec", *tried) == [
         "complete -o nosort -F _xsec_completion xsec",
         "T1.u2.s1 T1.u2.s2 T1.u2.s3 T1.u2.s",
         "show",
         "deon2016:T1.u2.s1",
-    ], done.stderr
+    ]
+
+
+def test_fish_itself(asked):
+    tried = [f'complete -C "{line}"' for line in ("xsec sho", "xsec show deon2016:T1.u2.s")]
+    found = asked(["fish", "--no-config"], "xsec completion fish | source", *tried)
+    assert [line.partition("\t")[0] for line in found] == [
+        "show", "deon2016:T1.u2.s", "deon2016:T1.u2.s1", "deon2016:T1.u2.s2", "deon2016:T1.u2.s3",
+    ]  # fmt: skip
+    assert "Table 1: x**2; column s1" in found[2]
+
+
+def test_zsh_itself(asked):
+    """With the two functions of its own by which zsh is told of completions, which want a line editor."""
+    tried = ["words=(xsec sho); CURRENT=2; _xsec_completion",
+             "words=(xsec show deon2016:T1.u2.s); CURRENT=3; _xsec_completion"]  # fmt: skip
+    found = asked(["zsh", "-f"], "compdef() { true }", 'compadd() { print -rl -- "${completions[@]}" }',
+                  '_describe() { print -rl -- "${completions_with_descriptions[@]}" }',
+                  'eval "$(xsec completion zsh)"', *tried)  # fmt: skip
+    assert found[0].startswith("show:") and len(found) == 5
+    assert [line.replace("\\:", "").split(":")[0] for line in found[1:]] == [
+        "deon2016T1.u2.s1", "deon2016T1.u2.s2", "deon2016T1.u2.s3", "deon2016T1.u2.s",
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize("arguments", [["show", "deon2016"], ["export"], ["chart"], []])

@@ -10,7 +10,7 @@ from typing import Any
 
 import click
 
-from xsec_sym import terminal
+from xsec_sym import guide, terminal
 from xsec_sym.scaffold import new
 from xsec_sym.terminal import Count, Program, complain, drawn, output, progress, say
 
@@ -47,8 +47,6 @@ def _ledger(derivations: str | None) -> Any:
 def main(context: click.Context) -> None:
     """Derive, verify and export the formulas of rendering papers. Without a command: what to do next."""
     if context.invoked_subcommand is None:
-        from xsec_sym import guide
-
         click.echo(guide.told(_ledger(None)))
 
 
@@ -167,7 +165,7 @@ def show(names: tuple[str, ...], latex: bool, bibtex: bool, derivations: str | N
         complain("name at least one entry, such as deon2016:18, or a source: " + ", ".join(ledger.sources))
     for name in names:
         if name not in known:
-            complain(f"there is no entry {name}{nearest(name, known)}")
+            complain(guide.no_entry(name, derivations, nearest(name, known)))
     if bibtex:
         try:
             click.echo("\n\n".join(bibtex_of(name, ledger) for name in names or SOURCES))
@@ -242,11 +240,13 @@ def chart(
         with drawn(target) as path:
             data = _measured(name, seed, jobs, cluster) if measure else files.stored(name)
             if path is None:
-                click.echo("\n".join(files.table(data)))
+                click.echo("\n".join([*files.table(data), "", *files.LEGEND]))
             else:
                 files.write(data, path, kind, stability)
     except (UnknownQuantity, files.Unmeasured, NoCluster) as error:
         complain(error)
+    if target is not None:
+        click.echo(f"wrote {target}", err=True)
 
 
 def _measured(name: str, seed: int, jobs: int, cluster: str | None) -> dict[str, Any]:
@@ -274,9 +274,11 @@ def export(names: tuple[str, ...], target: str | None, dtype: str, derivations: 
     if not names:
         if target is not None:
             complain("name what to export; without a name there is only the list")
-        for line in _exportable(exporter, derivations):
-            click.echo(line)
+        click.echo("\n".join(_exportable(exporter, _ledger(derivations))))
         return
+    for name in names:
+        if said := guide.made_by_hand(name):
+            complain(said)
     with output(None if target == "-" else target) as out, progress(count=len(names)) as steps:
         try:
             own = {"record": _ledger(derivations)} if derivations else {}
@@ -287,10 +289,23 @@ def export(names: tuple[str, ...], target: str | None, dtype: str, derivations: 
             out.write(text)
     if out is None:
         click.echo(text, nl=False)
+    else:
+        click.echo(f"wrote {target}", err=True)
 
 
-def _exportable(exporter: Any, derivations: str | None) -> list[str]:
-    return [str(name) for name in (exporter.names(_ledger(derivations)) if derivations else exporter.names())]
+def _exportable(exporter: Any, ledger: Any) -> list[str]:
+    """The list by where it comes from, under headings that no name begins like."""
+    lines: list[str] = []
+    last = None
+    for line in exporter.names(ledger):
+        name = str(line).split()[0]
+        home = name.partition(":")[0] if ":" in name else ""
+        if home != last:
+            lines.append(f"# {home or 'functions that take several equations together'}")
+            last = home
+        lines.append(str(line))
+    return [*lines, "# what has error or Bessel functions imports scipy.special as well, and says so",
+            "# kernels made by hand are not written: from xsec_sym.kernels import lambda_beckmann"]  # fmt: skip
 
 
 @main.command(short_help="Choose the cheapest kernels for a scene.")
@@ -320,6 +335,9 @@ def plan(scene: str, target: str | None, report: str | None, measure: bool) -> N
             told.write(layout(found.as_dict()) + "\n")
     for line in found.lines():
         click.echo(line)
+    for path in (target, report):
+        if path is not None:
+            click.echo(f"wrote {path}", err=True)
 
 
 @main.command()
