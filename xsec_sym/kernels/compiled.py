@@ -1,4 +1,4 @@
-"""The spherical Gaussian's cross-section compiled by Numba, an optional extra: `pip install 'xsec_sym[compiled]'`.
+"""The spherical Gaussian's cross-section compiled by Numba, which is an extra: `pip install numba`.
 
 The same functions as in `xsec_sym.kernels`, from the same tables, several times faster on large arrays. Import this
 module itself, `from xsec_sym.kernels import compiled`: the package does without Numba. The first call of a machine
@@ -17,7 +17,7 @@ try:
 except ModuleNotFoundError as error:
     if error.name != "numba":
         raise
-    raise ImportError("xsec_sym.kernels.compiled needs Numba: pip install 'xsec_sym[compiled]'") from error
+    raise ImportError("xsec_sym.kernels.compiled needs Numba: pip install numba") from error
 
 from xsec_sym.kernels import _spherical_gaussian_regions as regions
 from xsec_sym.kernels._support import elementwise, result_dtype
