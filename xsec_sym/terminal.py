@@ -147,7 +147,9 @@ def _end_children() -> None:
     import multiprocessing
 
     for child in multiprocessing.active_children():
-        child.kill()
+        # joblib's are of a kind that cannot be told to kill
+        with contextlib.suppress(ProcessLookupError, TypeError):
+            os.kill(child.pid, signal.SIGKILL)  # type: ignore[arg-type]
         child.join()
     # joblib's processes are ended with its executor, if there is one: asking for it would make it
     loky = sys.modules.get("joblib.externals.loky.reusable_executor")
