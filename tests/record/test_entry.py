@@ -113,3 +113,15 @@ def test_what_stands_between_the_sides():
 def test_the_record_equates_nothing_that_is_only_near():
     told_near = {e.id for e in Ledger().values() if "equal" not in e.evidence.get("within", "equal")}
     assert told_near and told_near == {e.id for e in Ledger().values() if e.relation() == "≈"}
+
+
+def test_a_whole_of_the_record_counts_its_parts():
+    ledger = Ledger()
+
+    def leaves(name):
+        parts = ledger[name].parts
+        return set().union(*map(leaves, parts)) if parts else {name}
+
+    wholes = [e for e in ledger.values() if e.parts]
+    assert len(wholes) > 40
+    assert {e.id: e.mutants for e in wholes} == {e.id: sum(ledger[p].mutants for p in leaves(e.id)) for e in wholes}

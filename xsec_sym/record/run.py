@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections import ChainMap, deque
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -274,19 +274,41 @@ def differences(
     return found + [f"{name}: in the record, and no derivation claims it" for name in gone]
 
 
-def to_record(results: Iterable[Result], ledger: Ledger) -> tuple[list[Entry], dict[str, Any]]:
+def to_record(results: Sequence[Result], ledger: Ledger) -> tuple[list[Entry], dict[str, Any]]:
     """What `Ledger.write` should be given.
 
     A replay that agrees leaves the fuller evidence of the record alone, and no time is recorded for its own sake.
     """
-    entries, certificates = [], {}
-    for result in results:
+    kept: dict[str, Entry] = dict(ledger)
+    changed, certificates = set(), {}
+    # a whole tells of its parts what stays recorded of them
+    ordered = sorted(results, key=lambda result: bool(result.entry.parts))
+    known = ChainMap(kept, {r.entry.id: r.entry for r in results if r.entry.parts})
+    for result in ordered:
         earlier = ledger.get(result.entry.id)
+        entry = _summed(result.entry, known)
         if earlier is not None:
-            agrees = result.replayed and earlier.verdict == result.entry.verdict
-            same = replace(result.entry, seconds=earlier.seconds) == earlier
+            agrees = result.replayed and earlier.verdict == entry.verdict
+            same = replace(entry, seconds=earlier.seconds) == earlier
             if agrees or (same and result.certificate == ledger.certificate(earlier.id)):
                 continue
-        entries.append(result.entry)
-        certificates[result.entry.id] = result.certificate
-    return entries, certificates
+        kept[entry.id] = entry
+        changed.add(entry.id)
+        certificates[entry.id] = result.certificate
+    return [kept[r.entry.id] for r in results if r.entry.id in changed], certificates
+
+
+def _summed(entry: Entry, known: Mapping[str, Entry]) -> Entry:
+    """A whole with the counts of its parts, whole ones among them taken apart; anything else as it is."""
+    if not entry.parts:
+        return entry
+    leaves, waiting, seen = [], list(entry.parts), {entry.id}
+    while waiting:
+        part = known.get(waiting.pop())
+        if part is not None and part.id not in seen:
+            seen.add(part.id)
+            waiting += part.parts
+            leaves += [] if part.parts else [part]
+    digits = min((p.digits for p in leaves if p.digits), default=None)
+    seconds = round(sum(p.seconds for p in leaves), 2)
+    return replace(entry, mutants=sum(p.mutants for p in leaves), digits=digits, seconds=seconds)
