@@ -1,5 +1,7 @@
 """Visible normals: their density, and exact sampling for viewers anywhere, below the horizon included."""
 
+from __future__ import annotations
+
 import math
 
 import numpy as np
