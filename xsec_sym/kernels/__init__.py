@@ -5,7 +5,8 @@
 array([0.  , 0.15, 1.  ])
 
 Arguments broadcast, float32 in gives float32 out, and what is out of the domain is NaN. `help(kernels.sigma_ggx)` tells
-the domain, the normalisation, the error and an example of one; `kernels.compiled` has the spherical Gaussian as loops of Numba.
+the domain, the normalisation, the error and an example of one; `kernels.compiled` has the spherical Gaussian as loops
+of Numba.
 
 Cross-sections of distributions of normals, seen from the direction of cosine u:
     sigma_beckmann(u, alpha): Beckmann's
