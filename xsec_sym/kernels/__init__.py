@@ -66,9 +66,9 @@ BRDFs of half-spaces:
     brdf_lambert_sphere(mu_i, mu_o, phi, c): Lambertian spheres, exact in every order
     brdf_lambert_sphere_fit(mu_i, mu_o, phi, c): the same, fitted: many albedos at once
     brdf_lambert_sphere_fast(mu_i, mu_o, phi, c): exact single scattering and one short formula
-    brdf_lambert_sphere_paper(mu_i, mu_o, phi, c): the paper's model, its misprints mended
-    brdf_lambert_sphere_fast_paper(mu_i, mu_o, phi, c): the paper's fast variant
-    brdf_lambert_sphere_printed(mu_i, mu_o, phi, c): the paper's model with every number as printed
+    brdf_lambert_sphere_paper(mu_i, mu_o, phi, c): the model of deon2021, its misprints mended
+    brdf_lambert_sphere_fast_paper(mu_i, mu_o, phi, c): the fast variant of deon2021
+    brdf_lambert_sphere_printed(mu_i, mu_o, phi, c): the model of deon2021 with every number as printed
     brdf_lambert_sphere_hapke(mu_i, mu_o, phi, c): Hapke's approximation
     brdf_isotropic(mu_i, mu_o, c): isotropic scattering
     h_isotropic(mu, c): Chandrasekhar's H function
