@@ -107,7 +107,8 @@ def test_a_link_leads_to_its_entry_and_opens_its_derivation(browser):
         top, shown, open_ = browser.run("""
             const entry = document.getElementById("22"), bar = document.querySelector(".bar").getBoundingClientRect();
             const box = entry.getBoundingClientRect();
-            return [box.top - Math.max(bar.bottom, 0), entry.checkVisibility(), entry.querySelector("details").open];""")
+            const proof = entry.querySelector("details");
+            return [box.top - Math.max(bar.bottom, 0), entry.checkVisibility(), proof.open];""")
         assert 0 <= top < 60 and shown and open_
     assert browser.run("return [...document.querySelectorAll('details[open]')].length") == 1
 
