@@ -49,6 +49,10 @@ def test_an_example_would_fail_if_it_were_wrong():
 
 def test_the_page(site):
     page = Page(site.text("reference.html"))
+    index = [
+        e for e in page.elements if e["tag"] == "a" and any(w["attrs"].get("class") == "names" for w in e["within"])
+    ]
+    assert sorted(e["attrs"]["href"] for e in index) == sorted(f"#api:{n.path}" for n in NAMES)
     articles = page.of_class("name")
     assert [a["attrs"]["id"] for a in articles] == [f"api:{n.path}" for m in FOUND.values() for n in m.names]
     ggx = next(a for a in articles if a["attrs"]["id"] == "api:xsec_sym.kernels.sigma_ggx")

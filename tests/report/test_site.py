@@ -271,6 +271,35 @@ def test_what_cites_is_shown_as_the_record_has_it(site, parsed):
         assert {e.id for e in judged if e.verdict in ("proved", "confirmed", "misprint")} <= set(shown)
 
 
+def test_the_words_are_explained_where_they_are_used(parsed):
+    """Every verdict on a page by its meaning, every name of a fact on pointing at it, the step by its own line."""
+    from xsec_sym.record.show import MEANING
+
+    for key in {e.source for e in LEDGER.values()}:
+        page = parsed[f"{key}.html"]
+        (terms,) = page.of_class("terms")
+        for verdict in {e.verdict for e in LEDGER.values() if e.source == key}:
+            assert MEANING[verdict] in terms["text"], (key, verdict)
+        for badge in page.of_class("verdict"):
+            assert badge["attrs"].get("title") or terms in badge["within"]
+    item = next(a for a in articles(parsed["deon2016.html"]) if a["attrs"]["id"] == "18")
+    assert "is the unit step" in item["text"]
+    named = {e["text"] for e in parsed["deon2016.html"].elements if e["tag"] == "dt" and "title" in e["attrs"]}
+    assert named >= {"change", "where", "reading", "fails at", "exact proof", "points tried", "altered forms rejected"}
+
+
+def test_nothing_is_said_to_equal_itself_without_a_reason(parsed):
+    alike = 0
+    for key in {e.source for e in LEDGER.values()}:
+        for formula in parsed[f"{key}.html"].of_class("formula"):
+            left, equals, right = formula["text"].partition("=")
+            if equals and left == right:
+                (article,) = articles_of(formula)
+                assert article["attrs"]["data-verdict"] != "definition" and "built separately" in article["text"]
+                alike += 1
+    assert alike
+
+
 def test_formulas_in_prose_are_told_apart(parsed):
     item = next(a for a in articles(parsed["deon2016.html"]) if a["attrs"]["id"] == "18")
     said = [e["text"] for e in parsed["deon2016.html"].of_class("maths") if item in e["within"]]

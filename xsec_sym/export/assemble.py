@@ -236,7 +236,8 @@ def kernel_module(module: str, record: Record, errors: Mapping[str, Errors]) -> 
     head = (
         f'"""{GENERATED[module]}\n\n'
         "Generated from the record of verified equations by `python -m xsec_sym.export`: do not edit.\n"
-        '"""\n\nimport numpy as np\n\nfrom xsec_sym.kernels._support import elementwise\n'
+        '"""\n\nfrom __future__ import annotations\n\n'
+        "import numpy as np\n\nfrom xsec_sym.kernels._support import elementwise\n"
     )
     parts = [written(r.name, _entry(record, r.cell), record, r, errors.get(r.name)) for r in recipes]
     return "\n\n".join([head, *parts])

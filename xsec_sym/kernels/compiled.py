@@ -6,6 +6,8 @@ compiles for some 10 s, and keeps the result in a cache where there is a folder 
 first call of a process takes 0.3 s.
 """
 
+from __future__ import annotations
+
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 

@@ -1,5 +1,7 @@
 """The cross-section of any axisymmetric NDF, by quadrature over Dirac rings."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from functools import cache
 from html import escape

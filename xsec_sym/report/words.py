@@ -42,6 +42,20 @@ def linked(text: str, known: Container[str]) -> Markup:
     return said + prose(text[end:])
 
 
+# What the words beside a formula mean, in the order in which an entry has them.
+TERMS = {
+    "in print": "the equation as the text of the paper has it; what differs from what holds is red",
+    "what holds": "the corrected form, proved or confirmed; what the print lacks is green",
+    "change": "the smallest edit of the print that mends it",
+    "where": "the values for which it is claimed, and was checked",
+    "reading": "how the text is understood where it leaves something open: normalisations, conventions, what is meant",
+    "fails at": "a point where the two sides differ, each with the radius of the ball that encloses it",
+    "derivation": "the moves of the proof, in order; the checker replays each of them",
+    "evidence": "what else was tried, and with what result",
+    "uses": "the entries on which its proof rests",
+}
+
+
 # A word that only a formula has, one that may stand in it, and a sign between two.
 _SURE = re.compile(r"\S*(?:[\^*]|\w_\w|\w\(|\|\w|\de[-+]?\d)\S*")
 _MAYBE = re.compile(r"[(\[|-]*(?:\d[\w.]*|[A-Za-z]'?|infinity|" + "|".join(GREEK) + r")[)\]|,;:.]*")

@@ -28,7 +28,7 @@ STYLE: Any = {
     "figure.constrained_layout.use": False,
 }
 # Of the foot, in an inch of width: a viewer's own letters may be wider than those it was planned with.
-LETTERS = 21
+LETTERS = 18
 FLOOR, CEILING = 1e-17, 10.0
 ERRORS = {"usual_rel": "largest relative error found", "usual_abs": "largest absolute error found"}
 
@@ -118,7 +118,7 @@ def figure(data: Mapping[str, Any]) -> Figure:
         made.suptitle(f"{data['quantity']}: {data['title']}")
         made.legend(handles, list(looks), loc="center right", frameon=False, fontsize=7)
         foot = fill(_foot(data), int(LETTERS * made.get_figwidth()))
-        made.text(0.01, 0.005, foot, fontsize=5.5, color="0.35", linespacing=1.3)
+        made.text(0.01, 0.005, foot, fontsize=6.5, color="0.35", linespacing=1.3)
         _set_out(made, foot.count("\n") + 1)
     return made
 
@@ -127,7 +127,7 @@ def _set_out(made: Figure, lines: int) -> None:
     """Margins in inches, for they are the same in every chart: to have them measured takes as long as to draw."""
     wide, high = made.get_size_inches()
     made.subplots_adjust(
-        left=0.7 / wide, right=1 - 2.0 / wide, bottom=(0.55 + 0.1 * lines) / high, top=1 - 0.58 / high,
+        left=0.7 / wide, right=1 - 2.0 / wide, bottom=(0.55 + 0.12 * lines) / high, top=1 - 0.58 / high,
         wspace=0.16 / 4.2, hspace=0.18 / 2.5,
     )  # fmt: skip
 
