@@ -94,7 +94,9 @@ class Program(click.Group):
 def _told(mistake: click.ClickException) -> str:
     if isinstance(mistake, click.NoSuchOption):
         near = f"; did you mean {' or '.join(mistake.possibilities)}?" if mistake.possibilities else ""
-        return f"there is no option {mistake.option_name}{near}"
+        bare = mistake.ctx is not None and mistake.ctx.command.name == "check" and not near
+        hint = "; an expression that begins with a minus sign stands in brackets" if bare else ""
+        return f"there is no option {mistake.option_name}{near}{hint}"
     return mistake.format_message()
 
 

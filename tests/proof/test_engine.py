@@ -41,6 +41,7 @@ from xsec_sym.proof.verify import verify
 
 a, u, x, t, phi = symbols("a u x t varphi", real=True)
 n = Symbol("n_p", integer=True, nonnegative=True)
+k = Symbol("k", integer=True)
 
 
 def equation(left, right, *where, **rest):

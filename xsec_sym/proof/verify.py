@@ -240,7 +240,8 @@ def _refuted(claim: Claim, outcome: Outcome, certificate: Any, evidence: dict[st
 def _witness(outcome: Outcome) -> dict[str, Any]:
     trial = outcome.refuted_at
     assert trial is not None
-    return {"point": shown(trial.point), "left": trial.left.str(20), "right": outcome.refuting.str(20)}
+    digits = next((d for d in (20, 40, 80) if trial.left.str(d) != outcome.refuting.str(d)), 80)
+    return {"point": shown(trial.point), "left": trial.left.str(digits), "right": outcome.refuting.str(digits)}
 
 
 def _count(moves: list[Any]) -> int:
