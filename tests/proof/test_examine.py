@@ -1,7 +1,7 @@
 """Equations of a user's own: what is proved without an idea, and what is tried."""
 
 import pytest
-from sympy import Integer, Integral, Rational, Sum, Symbol, atan, cosh, erf, exp, factorial, pi, sin, sqrt, symbols
+from sympy import Integer, Integral, Rational, Sum, Symbol, atan, cosh, erf, exp, factorial, oo, pi, sin, sqrt, symbols
 
 from xsec_sym.proof import Source, interval
 from xsec_sym.proof.balls import NoEnclosure, enclose
