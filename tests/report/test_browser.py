@@ -90,6 +90,11 @@ def test_a_page(browser, page):
     browser.look(width=375, height=740)
     wide, here = browser.run("return [document.documentElement.scrollWidth, innerWidth]")
     assert wide <= here == 375
+    # a name stands above what it names, without a gap
+    assert (
+        browser.run("return Math.max(0, ...[...document.querySelectorAll('.facts dt')].map((e) => e.offsetHeight))")
+        < 60
+    )
     assert browser.driver.get_log("browser") == []
 
 

@@ -86,6 +86,7 @@ def pages(record: Any, folder: Path, tick: Tick = lambda said: None) -> Iterator
         loader=PackageLoader("xsec_sym.report"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
         lstrip_blocks=True,
     )  # fmt: skip
+    inside.filters["with_links"] = lambda text: words.to_entries(text, record)
     inside.globals.update(
         papers=sources, items=found, href=words.href, version=__version__, table=bool(table), charts=bool(drawn),
         counted=counted, helped=helped, meanings=MEANING, groups=GROUPS, terms=words.TERMS,

@@ -56,6 +56,19 @@ TERMS = {
 }
 
 
+def to_entries(text: str, known: Container[str]) -> Markup:
+    """A text of HTML in which ids that stand as code lead to their entries.
+
+    >>> print(to_entries("by <code>deon2016:25</code> or <code>a:b</code>", {"deon2016:25"}))
+    by <a href="deon2016.html#25"><code>deon2016:25</code></a> or <code>a:b</code>
+    """
+
+    def leading(found: re.Match[str]) -> str:
+        return f'<a href="{href(found[1])}">{found[0]}</a>' if found[1] in known else found[0]
+
+    return Markup(re.sub(r"<code>([a-z_0-9]+:[\w.-]+)</code>", leading, text))
+
+
 # A word that only a formula has, one that may stand in it, and a sign between two.
 _SURE = re.compile(r"\S*(?:[\^*]|\w_\w|\w\(|\|\w|\de[-+]?\d)\S*")
 _MAYBE = re.compile(r"[(\[|-]*(?:\d[\w.]*|[A-Za-z]'?|infinity|" + "|".join(GREEK) + r")[)\]|,;:.]*")
