@@ -72,9 +72,9 @@ class Item:
         return place(self.entry)
 
     @property
-    def title(self) -> str:
+    def title(self) -> Markup:
         """Cells of the table are named by their place alone."""
-        return "" if self.entry.label.startswith("T1.") else self.entry.title
+        return Markup() if self.entry.label.startswith("T1.") else words.titled(self.entry.title)
 
     @property
     def section(self) -> str:

@@ -156,6 +156,22 @@ def symbols(text: str) -> Markup:
     return said + escape(text[end:])
 
 
+def titled(text: str) -> Markup:
+    """A title, with letters for the names of Greek ones and indices below.
+
+    >>> print(titled("the area is Lambda cos(theta_i), with D_+ and alpha^2"))
+    the area is <i>Λ</i> cos(<i>θ<sub>i</sub></i>), with <i>D<sub>+</sub></i> and <i>α</i><sup>2</sup>
+    """
+    greek = "|".join(name for name in GREEK if name not in ("oo", "ell"))
+    said = Markup("")
+    end = 0
+    for found in re.finditer(rf"\b(?:(?:{greek})(?:_(?:\w+\b|[+-]))?|[A-Za-z]_(?:\w+\b|[+-]))(?!\w)|\^(\d+)", text):
+        letter = Markup("<sup>{}</sup>").format(found[1]) if found[1] else _symbol(found[0])
+        said += escape(text[end : found.start()]) + letter
+        end = found.end()
+    return said + escape(text[end:])
+
+
 def _symbol(word: str) -> Markup:
     if word in SIGNS:
         return Markup(SIGNS[word])
