@@ -13,7 +13,7 @@ k = Symbol("k", integer=True)
 
 
 def equation(left, right, *where):
-    return Source("test").claim("1", "a test", left=left, printed=right, where=where)
+    return Source("examined").claim("1", "a test", left=left, printed=right, where=where)
 
 
 @pytest.mark.parametrize(
