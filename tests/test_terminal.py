@@ -199,7 +199,7 @@ except SystemExit:
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_the_scripts(shell):
     script = complete.script(shell, main, "_XSEC_COMPLETE")
-    assert f"_XSEC_COMPLETE={shell}_complete" in script and "xsec" in script
+    assert re.search(rf"_XSEC_COMPLETE[= ]{shell}_complete", script) and "xsec" in script
 
 
 def test_how_to_switch_it_on_is_told_on_a_terminal():
@@ -243,9 +243,9 @@ def test_fish_itself(asked):
     tried = [f'complete -C "{line}"' for line in ("xsec sho", "xsec show deon2016:T1.u2.s")]
     found = asked(["fish", "--no-config"], "xsec completion fish | source", *tried)
     assert [line.partition("\t")[0] for line in found] == [
-        "show", "deon2016:T1.u2.s", "deon2016:T1.u2.s1", "deon2016:T1.u2.s2", "deon2016:T1.u2.s3",
+        "show", "deon2016:T1.u2.s1", "deon2016:T1.u2.s2", "deon2016:T1.u2.s3", "deon2016:T1.u2.s",
     ]  # fmt: skip
-    assert "Table 1: x**2; column s1" in found[2]
+    assert "Table 1: x**2, column s1" in found[1], "a comma does not end what is said"
 
 
 def test_zsh_itself(asked):
@@ -261,7 +261,7 @@ def test_zsh_itself(asked):
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize("arguments", [["show", "deon2016"], ["export"], ["chart"], []])
+@pytest.mark.parametrize("arguments", [["show", "deon2016"], ["export"], ["--help"], []])
 def test_a_reader_who_leaves_early_is_no_mistake(arguments):
     with subprocess.Popen([*XSEC, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=PLAIN) as left:
         left.stdout.close()

@@ -5,11 +5,18 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import click
-from click.shell_completion import BashComplete, CompletionItem, add_completion_class, get_completion_class
+from click.shell_completion import (
+    BashComplete,
+    CompletionItem,
+    FishComplete,
+    add_completion_class,
+    get_completion_class,
+)
 
 Items = list[CompletionItem]
 
@@ -43,8 +50,32 @@ complete -o nosort -F %(complete_func)s %(prog_name)s
         return words[1:], last
 
 
+class Fish(FishComplete):
+    """What is said of a word may hold commas, and what comes stays in the order of the sources."""
+
+    source_template = r"""function %(complete_func)s
+    set -lx %(complete_var)s fish_complete
+    set -lx COMP_WORDS (commandline -cp)
+    set -lx COMP_CWORD (commandline -t)
+    for line in (%(prog_name)s 2>/dev/null)
+        set -l said (string split --max 1 , -- $line)
+        switch $said[1]
+            case dir
+                __fish_complete_directories $said[2]
+            case file
+                __fish_complete_path $said[2]
+            case plain
+                echo $said[2]
+        end
+    end
+end
+complete --no-files --keep-order --command %(prog_name)s --arguments "(%(complete_func)s)"
+"""
+
+
 def register() -> None:
     add_completion_class(Bash)
+    add_completion_class(Fish)
 
 
 def script(shell: str, program: click.Command, variable: str) -> str:
@@ -72,8 +103,7 @@ def _record(context: click.Context) -> Mapping[str, Any]:
 
 
 def _items(known: Iterable[tuple[str, str]], word: str) -> Items:
-    # a comma would end what fish tells of it
-    return [CompletionItem(name, help=said.replace(",", ";")) for name, said in known if name.startswith(word)]
+    return [CompletionItem(name, help=said) for name, said in known if name.startswith(word)]
 
 
 def _sources(record: Mapping[str, Any]) -> list[tuple[str, str]]:
@@ -104,12 +134,14 @@ def exports(context: click.Context, word: str) -> Items:
 
     record = _record(context)
     behind = [name for r in RECIPES.values() for name in (*r.ids, r.cell)]
-    coded = [name for name, stored in _code().items() if "text" in stored]
+    coded = [name for name, stored in code().items() if "text" in stored]
     forms = [record[name] for name in dict.fromkeys([*behind, *coded]) if name in record]
     return _items([(r.name, r.summary) for r in RECIPES.values()] + [(e.id, e.title) for e in forms], word)
 
 
-def _code() -> dict[str, Any]:
+@cache
+def code() -> dict[str, Any]:
+    """The code that the report keeps, by the ids of entries."""
     # by its path: the package imports what draws pages
     path = Path(__file__).parent / "report" / "data" / "code.json"
     found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}

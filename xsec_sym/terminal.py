@@ -71,18 +71,19 @@ class Program(click.Group):
 
     def invoke(self, context: click.Context) -> Any:
         try:
-            with _insisting():
+            with _insisting(), _read():
                 return super().invoke(context)
-        except BrokenPipeError:
-            _end_children()
-            _EXIT.append(UNREAD)
-            raise click.exceptions.Exit(UNREAD) from None
         except KeyboardInterrupt:
             # who presses again would only disturb the tidying
             with contextlib.suppress(ValueError):
                 signal.signal(signal.SIGINT, signal.SIG_IGN)
             _end_children()
             raise Interrupted("interrupted") from None
+
+    def make_context(self, *args: Any, **extra: Any) -> click.Context:
+        # what --help prints is printed here
+        with _read():
+            return super().make_context(*args, **extra)
 
     def resolve_command(self, context: click.Context, args: list[str]) -> Any:
         name = args[0]
@@ -98,6 +99,17 @@ def _told(mistake: click.ClickException) -> str:
         hint = "; an expression that begins with a minus sign stands in brackets" if bare else ""
         return f"there is no option {mistake.option_name}{near}{hint}"
     return mistake.format_message()
+
+
+@contextlib.contextmanager
+def _read() -> Iterator[None]:
+    """A reader who leaves early ends the program, which is no mistake."""
+    try:
+        yield
+    except BrokenPipeError:
+        _end_children()
+        _EXIT.append(UNREAD)
+        raise click.exceptions.Exit(UNREAD) from None
 
 
 @contextlib.contextmanager

@@ -87,6 +87,8 @@ def _entry(record: Record, name: str) -> Entry:
     try:
         return record[name]
     except KeyError:
+        if any(entry.source == name for entry in record.values()):
+            raise Refusal(f"{name} is a source: export its equations by their ids") from None
         raise Refusal(f"there is nothing to export by the name {name}{nearest(name, [*RECIPES, *record])}") from None
 
 

@@ -171,7 +171,7 @@ def _read(path: Path) -> dict[str, Any]:
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise BrokenRecord(f"{path} cannot be read: {error}") from error
+        raise BrokenRecord(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}") from error
     if not isinstance(data, dict):
         raise BrokenRecord(f"{path} is not a record")
     return data
