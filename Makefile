@@ -1,9 +1,14 @@
-# Two commands on a fresh machine: `make verify` and `make test`. A second run reuses the set-up.
+# Two commands on a fresh machine: `make verify` and `make test`. A second run reuses the set-up. `make help` lists all:
+# what stands behind ## at a target.
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
+.DEFAULT_GOAL := verify
 .PHONY: help verify verify-fresh test test-deep test-newest lint bench chart walk report notebooks lab generate clean
+
+help:  ## this list
+	@sed -nE 's/^([a-z-]+):.*## (.*)/make \1|\2/p' Makefile | awk -F'|' '{ printf "%-18s %s\n", $$1, $$2 }'
 
 $(READY): pyproject.toml constraints.txt
 	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed") if sys.version_info < (3, 11) else None'
@@ -11,16 +16,10 @@ $(READY): pyproject.toml constraints.txt
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[test]'
 	touch $(READY)
 
-# `make` alone is `make verify`.
-.DEFAULT_GOAL := verify
-
-help:  ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
-
-verify: $(READY)  ## replay the recorded proofs, check every claim again, print the verdicts
+verify: $(READY)  ## replay the recorded proofs, check every claim again numerically; some three minutes
 	$(BIN)/xsec verify
 
-verify-fresh: $(READY)  ## derive everything anew, and compare with the record
+verify-fresh: $(READY)  ## derive everything anew
 	$(BIN)/xsec verify --fresh
 
 lint: $(READY)  ## ruff and mypy
@@ -30,11 +29,11 @@ lint: $(READY)  ## ruff and mypy
 
 # Where the record is up to date, verdicts are replayed; where it is not, they are earned anew, which takes longer:
 # record first, by `xsec verify --fresh --record`.
-test: lint  ## lint, tests, doctests, guides and notebooks; warnings are errors
+test: lint  ## these, the tests, doctests, guides and notebooks
 	$(BIN)/python -m pytest
 
 # The same, with every verdict earned anew, and with the tests that repeat at more points what a quicker one shows.
-test-deep: lint  ## the same with every verdict earned anew, at more points
+test-deep: lint  ## the same, every verdict earned anew, at more points
 	$(BIN)/python -m pytest --deep
 
 # The suite with the newest releases, whatever the pins say, to see what the next ones will break: a set-up of its own,
@@ -57,11 +56,11 @@ bench: $(READY)  ## what the kernels cost
 
 # Draws speed against accuracy, and the failure maps, from the stored measurements; `xsec chart NAME --measure` makes new
 # ones.
-chart: $(READY)  ## charts and failure maps from the stored measurements
+chart: $(READY)  ## charts and maps from the stored measurements
 	$(BIN)/python -m xsec_sym.study draw charts
 
 # Simulates two media, and compares them with Smith's theory and with each other.
-walk: $(READY)  ## random walks against the closed forms and each other
+walk: $(READY)  ## simulate light in two media, against the closed forms
 	$(BIN)/python -m xsec_sym.walks
 
 # Writes the record as a static page; open report/index.html.
@@ -81,7 +80,7 @@ lab: .venv/.lab  ## open the notebooks in JupyterLab
 
 # Writes the generated kernels anew from the recorded verdicts, and the tables of H, of the spherical Gaussian and of the
 # fits; tests compare them with what is committed. Last, the code of every entry for the report, which takes minutes.
-generate: $(READY)  ## write the generated kernels, tables and code anew
+generate: $(READY)  ## the generated kernels, tables and the report's code anew
 	$(BIN)/python -m xsec_sym.export
 	$(BIN)/python -m xsec_sym.export.isotropic
 	$(BIN)/python -m xsec_sym.export.spherical_gaussian
@@ -89,5 +88,5 @@ generate: $(READY)  ## write the generated kernels, tables and code anew
 	$(BIN)/python -m xsec_sym.export.lambert_sphere_fits
 	$(BIN)/python -m xsec_sym.report.code
 
-clean:  ## remove the set-ups and what was built
+clean:  ## remove the set-up
 	rm -rf .venv .venv-newest build *.egg-info

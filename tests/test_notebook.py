@@ -60,6 +60,14 @@ def test_a_slider_draws_at_once_and_again_where_it_is_moved(shown, line):
     assert not plt.get_fignums()
 
 
+@pytest.mark.parametrize(("low", "high", "first"), [(0.1, 1.5, 0.5), (0.2, 3.0, 0.6), (-0.99, 0.99, 0.6), (0, 180, 50)])
+def test_a_slider_stands_where_the_first_picture_was_drawn(low, high, first):
+    """The front end rounds what it shows to a place that is a whole number of steps from the least value."""
+    (control,) = notebook._controls({"alpha": (low, high, first)}).children
+    places = (first - low) / control.step
+    assert abs(places - round(places)) < 1e-9 and 50 <= (high - low) / control.step <= 250
+
+
 def test_without_ipywidgets_the_picture_stays(shown, line, monkeypatch):
     monkeypatch.setitem(sys.modules, "ipywidgets", None)
     notebook.slider(line, **RANGES)

@@ -1,5 +1,6 @@
 """Every notebook runs from a fresh kernel without an error or a warning, and is stored without outputs."""
 
+import ast
 import asyncio
 from pathlib import Path
 
@@ -47,6 +48,24 @@ def test_runs_cleanly(path):
     assert [
         data["text/plain"] for data in shown if data.keys() == {"text/plain"} and "<Figure" in data["text/plain"]
     ] == []
+
+
+@each_notebook
+def test_every_cell_that_computes_asserts(path):
+    """Itself, or by a function of the notebook that does; the first one imports."""
+    trees = [ast.parse(cell.source) for cell in code_cells(nbformat.read(path, as_version=4))]
+    helpers = set()
+
+    def asserts(node):
+        return any(
+            isinstance(n, ast.Assert)
+            or (isinstance(n, ast.Attribute) and n.attr.startswith("assert_"))
+            or (isinstance(n, ast.Name) and n.id in helpers)
+            for n in ast.walk(node)
+        )
+
+    helpers |= {n.name for tree in trees for n in tree.body if isinstance(n, ast.FunctionDef) and asserts(n)}
+    assert [ast.unparse(tree)[:60] for tree in trees[1:] if not asserts(tree)] == []
 
 
 def test_they_are_one_story():

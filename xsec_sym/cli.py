@@ -10,9 +10,9 @@ from typing import Any
 
 import click
 
-from xsec_sym import terminal
+from xsec_sym import guide, terminal
 from xsec_sym.scaffold import new
-from xsec_sym.terminal import Count, Program, complain, drawn, output, progress, say, wrote
+from xsec_sym.terminal import Count, Program, complain, drawn, output, progress, say
 
 # Work is shared out to processes, whose small matrices threads would only slow down; to be set before NumPy is loaded.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -32,8 +32,6 @@ def _known(what: str) -> Callable[..., Any]:
 def _ledger(derivations: str | None) -> Any:
     from xsec_sym.record import store
 
-    if derivations and not Path(derivations).is_dir():
-        complain(f"{derivations} is not a folder of derivations")
     folders = [store.DATA, *([Path(derivations) / "record"] if derivations else [])]
     found = store.Ledger(*folders)
     try:
@@ -49,8 +47,6 @@ def _ledger(derivations: str | None) -> Any:
 def main(context: click.Context) -> None:
     """Derive, verify and export the formulas of rendering papers. Without a command: what to do next."""
     if context.invoked_subcommand is None:
-        from xsec_sym import guide
-
         click.echo(guide.told(_ledger(None)))
 
 
@@ -93,51 +89,55 @@ def verify(
 ) -> None:
     """Check the claims again: all, the given ids, or one source.
 
-    Exit code 0 when every verdict is settled and is the recorded one, 1 when any differs or is not settled. Ctrl-C
-    ends it with the verdicts that there are by then, and exit code 130.
+    Exit code 0 when every verdict is settled and is the recorded one, 1 when any differs or is not settled.
     """
     from time import perf_counter
 
     from xsec_sym import verifying
 
-    start = perf_counter()
+    begun, met, effort = perf_counter(), {}, {}
     try:
         with output(target) as out, progress("reading the derivations") as steps:
             from xsec_sym.record import show
-            from xsec_sym.record.run import Run, Settings, differences, to_record
+            from xsec_sym.record.run import Settings, differences, to_record, verify_all, with_parts
 
             if cluster and derivations:
                 complain("--derivations cannot go with --cluster: its machines do not have that folder")
             claims = verifying.claims_of(derivations)
             ledger = _ledger(derivations)
             chosen = verifying.chosen_ids(ids, sources, claims, ledger)
-            run = Run(claims, chosen, ledger, Settings(digits, seed, fresh, jobs or os.cpu_count() or 1))
-            effort = verifying.efforts(run.wanted, ledger)
+            settings = Settings(digits, seed, fresh, jobs or os.cpu_count() or 1)
+            execute = verifying.on_cluster(cluster, settings) if cluster else None
+            effort = verifying.efforts(with_parts(claims, chosen), ledger)
             steps.expect(len(effort), sum(effort.values()))
-            results = verifying.carried_out(run, cluster, steps, effort, record)
+
+            def tick(name: str, verdict: Any) -> None:
+                met[name] = verdict
+                steps.done(effort[name])
+
+            results = verify_all(claims, chosen, ledger, settings, execute=execute, tick=tick,
+                                 now=lambda names: steps.now(*names))  # fmt: skip
             entries = [r.entry for r in results]
             restricted = set(sources) if sources else set() if ids else {e.source for e in ledger.values()}
-            met = [e.id for e in ledger.values() if e.source in restricted]
-            gone = [name for name in met if name not in claims]
-            found = differences(results, ledger, claims, met)
+            expected = [e.id for e in ledger.values() if e.source in restricted]
+            found = differences(results, ledger, claims, expected)
             # a claim of the user's own is new at first, and that is no fault
             own = {r.entry.id for r in results if not claims[r.entry.id].module.startswith("derivations")}
             faults = [said for said in found if said.partition(": ")[0] not in own - set(ledger)]
-            closing = verifying.closing(results, ledger, len(gone), record, perf_counter() - start)
+            gone = [n for n in expected if n not in claims]
+            last = verifying.closing(entries, gone, ledger, record, perf_counter() - begun)
             if record:
                 verifying.keep(results, to_record(results, ledger), ledger, claims, gone, own)
                 faults = []
             if out is not None:
                 verifying.write_json(out, entries, digits)
-    except verifying.Stopped as stopped:
-        if sys.stdout.isatty() and not sys.stderr.isatty():
-            click.echo()  # ^C stands on the line, which the bar would have cleared
-        verifying.print_verdicts(stopped.entries)
+    except KeyboardInterrupt:
+        if effort:
+            verifying.print_so_far(met, claims, len(effort))
         raise
     verifying.print_verdicts(entries)
-    for said in [*show.summary(entries), *found, closing]:
+    for said in [*show.summary(entries), *([] if record and not found else found), last]:
         click.echo(said)
-    wrote(target)
     context.exit(1 if faults or not all(e.settled for e in entries) else 0)
 
 
@@ -155,9 +155,9 @@ def show(names: tuple[str, ...], latex: bool, bibtex: bool, derivations: str | N
     """
     from shutil import get_terminal_size
 
-    from xsec_sym import hints
     from xsec_sym.record import show as text
     from xsec_sym.record.sources import SOURCES, bibtex_of
+    from xsec_sym.record.store import nearest
 
     ledger = _ledger(derivations)
     known = dict.fromkeys([*ledger, *ledger.sources, *(SOURCES if bibtex else ())])
@@ -165,7 +165,7 @@ def show(names: tuple[str, ...], latex: bool, bibtex: bool, derivations: str | N
         complain("name at least one entry, such as deon2016:18, or a source: " + ", ".join(ledger.sources))
     for name in names:
         if name not in known:
-            complain(f"there is no entry {name}{hints.entry(name, known, ledger.sources, derivations)}")
+            complain(guide.no_entry(name, derivations, nearest(name, known)))
     if bibtex:
         try:
             click.echo("\n\n".join(bibtex_of(name, ledger) for name in names or SOURCES))
@@ -183,8 +183,7 @@ def show(names: tuple[str, ...], latex: bool, bibtex: bool, derivations: str | N
 @click.argument("rhs")
 @click.option("--where", default="", help='The domain, such as "u in (-1, 1), n in {0, 1, 2}, u*n > 0".')
 @click.option("--digits", type=Count(1, 1000), default=30, show_default=True, help="Digits to agree on.")
-@click.option("--seconds", type=click.FloatRange(0.1, 86400), default=60.0, show_default=True, metavar="S",
-              help="Time limit.")  # fmt: skip
+@click.option("--seconds", type=click.FloatRange(0.1, 86400), default=60.0, show_default=True, help="Time limit.")
 @click.pass_context
 def check(context: click.Context, lhs: str, rhs: str, where: str, digits: int, seconds: float) -> None:
     """Check an equation of your own: LHS = RHS wherever --where holds.
@@ -241,12 +240,13 @@ def chart(
         with drawn(target) as path:
             data = _measured(name, seed, jobs, cluster) if measure else files.stored(name)
             if path is None:
-                click.echo("\n".join(files.table(data)))
+                click.echo("\n".join([*files.table(data), "", *files.LEGEND]))
             else:
                 files.write(data, path, kind, stability)
     except (UnknownQuantity, files.Unmeasured, NoCluster) as error:
         complain(error)
-    wrote(target)
+    if target is not None:
+        click.echo(f"wrote {target}", err=True)
 
 
 def _measured(name: str, seed: int, jobs: int, cluster: str | None) -> dict[str, Any]:
@@ -263,37 +263,49 @@ def _measured(name: str, seed: int, jobs: int, cluster: str | None) -> dict[str,
 @main.command(short_help="Write verified expressions as a module of NumPy.")
 @click.argument("names", nargs=-1, metavar="[NAME]...", shell_complete=_known("exports"))
 @click.option("-o", "target", type=FILE, metavar="FILE", help="The module to write.  [default: standard output]")
-@click.option("--dtype", type=click.Choice(["float32", "float64"]), default="float64", show_default=True,
-              help="What the functions return.")  # fmt: skip
+@click.option("--dtype", type=click.Choice(["float32", "float64"]), default="float64", show_default=True)
 @OWN
 def export(names: tuple[str, ...], target: str | None, dtype: str, derivations: str | None) -> None:
-    """Write verified expressions as one module that imports NumPy; without a NAME, list what there is.
-
-    The list has a line for each name; lines that begin with # say what they have in common.
-    """
+    """Write verified expressions as one module that imports NumPy; without a NAME, list what there is."""
     from importlib import import_module
 
     exporter = import_module("xsec_sym.export")
     refusal = exporter.Refusal
-    from xsec_sym import exporting, hints
-
     if not names:
         if target is not None:
             complain("name what to export; without a name there is only the list")
-        record = _ledger(derivations)
-        click.echo("\n".join(exporting.listing(exporter.available(record), record)))
+        click.echo("\n".join(_exportable(exporter, _ledger(derivations))))
         return
+    for name in names:
+        if said := guide.made_by_hand(name):
+            complain(said)
     with output(None if target == "-" else target) as out, progress(count=len(names)) as steps:
         try:
             own = {"record": _ledger(derivations)} if derivations else {}
             text = exporter.module(list(names), dtype, tick=steps.next, **own)
-        except refusal as error:
-            complain(f"{error}{hints.exported(names) if isinstance(error, exporter.HandMade) else ''}")
+        except (refusal, KeyError) as error:
+            complain(error if isinstance(error, refusal) else str(error))
         if out is not None:
             out.write(text)
     if out is None:
         click.echo(text, nl=False)
-    wrote(target)
+    else:
+        click.echo(f"wrote {target}", err=True)
+
+
+def _exportable(exporter: Any, ledger: Any) -> list[str]:
+    """The list by where it comes from, under headings that no name begins like."""
+    lines: list[str] = []
+    last = None
+    for line in exporter.names(ledger):
+        name = str(line).split()[0]
+        home = name.partition(":")[0] if ":" in name else ""
+        if home != last:
+            lines.append(f"# {home or 'functions that take several equations together'}")
+            last = home
+        lines.append(str(line))
+    return [*lines, "# what has error or Bessel functions imports scipy.special as well, and says so",
+            "# kernels made by hand are not written: from xsec_sym.kernels import lambda_beckmann"]  # fmt: skip
 
 
 @main.command(short_help="Choose the cheapest kernels for a scene.")
@@ -323,7 +335,9 @@ def plan(scene: str, target: str | None, report: str | None, measure: bool) -> N
             told.write(layout(found.as_dict()) + "\n")
     for line in found.lines():
         click.echo(line)
-    wrote(target, report)
+    for path in (target, report):
+        if path is not None:
+            click.echo(f"wrote {path}", err=True)
 
 
 @main.command()

@@ -113,3 +113,33 @@ def state(record: Mapping[str, Entry]) -> str:
     sources = len({e.source for e in record.values()})
     said = ", ".join(f"{number} {name}" for name, number in wide)
     return f"The record: {len(record)} entries of {sources} sources; {said}."
+
+
+def no_entry(name: str, derivations: str | None, near: str) -> str:
+    """Why the record holds nothing by a name, with a hint that may have been found.
+
+    >>> no_entry("mine:1", None, "")
+    'there is no entry mine:1; one of your own wants --derivations PATH, and its verdict recorded'
+    """
+    said = f"there is no entry {name}{near}"
+    if near:
+        return said
+    if derivations:
+        return f"{said}; xsec verify --derivations {derivations} --record keeps the verdicts there"
+    return f"{said}; one of your own wants --derivations PATH, and its verdict recorded"
+
+
+def made_by_hand(name: str) -> str:
+    """What to do where a kernel is asked for that no equation alone gives; empty for other names.
+
+    >>> made_by_hand("smith_g1")
+    'smith_g1 is made by hand and not written: from xsec_sym.kernels import smith_g1'
+    """
+    from xsec_sym import kernels
+    from xsec_sym.export.recipes import RECIPES
+    from xsec_sym.study.method import HOMES
+
+    if name in RECIPES or name not in kernels.__all__:
+        return ""
+    planned = "; xsec plan writes a module of it for a scene" if name in HOMES else ""
+    return f"{name} is made by hand and not written: from xsec_sym.kernels import {name}{planned}"

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from importlib import import_module
 from io import BytesIO
+from math import floor, log10
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -121,6 +122,18 @@ def _picture(draw: Callable[..., Figure], values: dict[str, float]) -> Image:
     return Image(out.getvalue(), format="png", alt=f"a figure at {said}")
 
 
+def _step(width: float) -> float:
+    """About a hundredth of the range, of one digit: 1, 2 or 5 times a power of 10.
+
+    A slider shows the nearest of its own places, so that a first value between two would not be what is drawn.
+
+    >>> _step(1.5 - 0.1), _step(360.0)
+    (0.01, 2.0)
+    """
+    power = 10.0 ** floor(log10(width / STEPS))
+    return round(max(k for k in (1, 2, 5) if k * power <= width / STEPS * (1 + 1e-9)) * power, 12)
+
+
 def _controls(ranges: dict[str, tuple[float, float, float]]) -> Any:
     """A column of sliders, or None without ipywidgets."""
     try:
@@ -129,7 +142,7 @@ def _controls(ranges: dict[str, tuple[float, float, float]]) -> Any:
         return None
     return ipywidgets.VBox(
         [
-            ipywidgets.FloatSlider(first, min=low, max=high, step=(high - low) / STEPS, description=name)
+            ipywidgets.FloatSlider(first, min=low, max=high, step=_step(high - low), description=name)
             for name, (low, high, first) in ranges.items()
         ]
     )

@@ -7,7 +7,7 @@ import contextlib
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -18,7 +18,7 @@ import click
 from xsec_sym import guide
 
 INTERRUPTED = 130
-# What a shell tells of a program that wrote into a closed pipe.
+# As of a program that a reader's end ends, such as that of `| head`.
 UNREAD = 141
 COMPLETE = "_XSEC_COMPLETE"
 
@@ -56,37 +56,34 @@ class Program(click.Group):
         _mind_exit()
         code: Any
         try:
-            code = self._carried_out(lambda: run(*args, standalone_mode=False, **extra))
-            sys.stdout.flush()
-        except (BrokenPipeError, SystemExit):
-            # click leaves where a pipe is closed; whose reader has had enough asks for no more, and that is no mistake
-            if not _unread():
-                raise
-            code = UNREAD
-        sys.exit(code if isinstance(code, int) else 0)
-
-    @staticmethod
-    def _carried_out(run: Callable[[], Any]) -> Any:
-        try:
-            return run()
+            code = run(*args, standalone_mode=False, **extra)
         except Interrupted as left:
             # what is echoed as ^C stands on the line already
             click.echo(f"{chr(10) * sys.stderr.isatty()}xsec: {left.message}", err=True)
             _EXIT.append(INTERRUPTED)
-            return INTERRUPTED
+            code = INTERRUPTED
         except click.ClickException as mistake:
             click.echo(f"xsec: {one_line(_told(mistake))}", err=True)
-            return 2
+            code = 2
         except (click.Abort, KeyboardInterrupt):
-            return INTERRUPTED
+            code = INTERRUPTED
+        sys.exit(code if isinstance(code, int) else 0)
 
     def invoke(self, context: click.Context) -> Any:
         try:
-            with _insisting():
+            with _insisting(), _read():
                 return super().invoke(context)
         except KeyboardInterrupt:
-            calm()
+            # who presses again would only disturb the tidying
+            with contextlib.suppress(ValueError):
+                signal.signal(signal.SIGINT, signal.SIG_IGN)
+            _end_children()
             raise Interrupted("interrupted") from None
+
+    def make_context(self, *args: Any, **extra: Any) -> click.Context:
+        # what --help prints is printed here
+        with _read():
+            return super().make_context(*args, **extra)
 
     def resolve_command(self, context: click.Context, args: list[str]) -> Any:
         name = args[0]
@@ -98,23 +95,21 @@ class Program(click.Group):
 def _told(mistake: click.ClickException) -> str:
     if isinstance(mistake, click.NoSuchOption):
         near = f"; did you mean {' or '.join(mistake.possibilities)}?" if mistake.possibilities else ""
-        return f"there is no option {mistake.option_name}{near}"
+        bare = mistake.ctx is not None and mistake.ctx.command.name == "check" and not near
+        hint = "; an expression that begins with a minus sign stands in brackets" if bare else ""
+        return f"there is no option {mistake.option_name}{near}{hint}"
     return mistake.format_message()
 
 
-def _unread() -> bool:
-    """Whether nobody reads what we print any more; if so, what is left of it goes nowhere."""
-    import select
-
-    found = False
-    for stream in (sys.stdout, sys.stderr):
-        with contextlib.suppress(OSError, ValueError, AttributeError):
-            asked = select.poll()
-            asked.register(stream.fileno(), select.POLLOUT)
-            if any(event & select.POLLERR for _, event in asked.poll(0)):
-                os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
-                found = True
-    return found
+@contextlib.contextmanager
+def _read() -> Iterator[None]:
+    """A reader who leaves early ends the program, which is no mistake."""
+    try:
+        yield
+    except BrokenPipeError:
+        _end_children()
+        _EXIT.append(UNREAD)
+        raise click.exceptions.Exit(UNREAD) from None
 
 
 @contextlib.contextmanager
@@ -142,15 +137,6 @@ def _insisting() -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def calm() -> None:
-    """After Ctrl-C: nothing is raised any more, and no process of ours is left."""
-    # who presses again would only disturb the tidying
-    with contextlib.suppress(ValueError, AttributeError):
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
-    _end_children()
-
-
 _EXIT: list[int] = []
 
 
@@ -175,7 +161,9 @@ def _end_children() -> None:
     import multiprocessing
 
     for child in multiprocessing.active_children():
-        child.kill()
+        # joblib's are of a kind that cannot be told to kill
+        with contextlib.suppress(ProcessLookupError, TypeError):
+            os.kill(child.pid, signal.SIGKILL)  # type: ignore[arg-type]
         child.join()
     # joblib's processes are ended with its executor, if there is one: asking for it would make it
     loky = sys.modules.get("joblib.externals.loky.reusable_executor")
@@ -221,12 +209,6 @@ def paint(text: str, colour: str) -> str:
 
 
 def say(text: str) -> None:
-    try:
-        text.encode(sys.stdout.encoding or "utf-8")
-    except (UnicodeEncodeError, LookupError):
-        # signs that mean something are spelt out where there are no such letters
-        for sign, spelt in (("≈", "~="), ("≥", ">=")):
-            text = text.replace(sign, spelt)
     click.echo(text, color=coloured())
 
 
@@ -272,13 +254,6 @@ def drawn(target: str | None) -> Iterator[str | None]:
             os.replace(path, target)
     except OSError as error:
         complain(f"cannot write {target}: {error.strerror or error}")
-
-
-def wrote(*paths: str | None) -> None:
-    """Say which files there are now; what was written into a device or a pipe is no file."""
-    for path in paths:
-        if path is not None and Path(path).is_file():
-            click.echo(f"wrote {path}")
 
 
 # --- progress --------------------------------------------------------------------------------------------

@@ -3,31 +3,15 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
-from typing import Any, TextIO
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TextIO
 
-from xsec_sym.terminal import Interrupted, calm, coloured, complain, nearest_or_all, one_line, say
+from xsec_sym.terminal import coloured, complain, nearest_or_all, one_line, say
 
-
-class Stopped(Interrupted):
-    """Ctrl-C came before all was verified; what was is told."""
-
-    def __init__(self, run: Any, record: bool) -> None:
-        self.entries = [r.entry for r in run.results()]
-        kept = "; nothing is recorded" if record else ""
-        super().__init__(f"stopped after {len(self.entries)} of {len(run.wanted)}{kept}")
-
-
-def carried_out(run: Any, cluster: str | None, steps: Any, effort: dict[str, float], record: bool) -> list[Any]:
-    """The results of a run. Raises `Stopped` with those there are when Ctrl-C is pressed."""
-    execute = on_cluster(cluster, run.settings) if cluster else None
-    try:
-        run.go(execute, tick=lambda name: steps.done(effort[name]), now=lambda names: steps.now(*names))
-    except KeyboardInterrupt:
-        calm()
-        raise Stopped(run, record) from None
-    found: list[Any] = run.results()
-    return found
+if TYPE_CHECKING:
+    from xsec_sym.proof.claim import Claim
+    from xsec_sym.proof.verdict import Verdict
+    from xsec_sym.record.store import Ledger
 
 
 def efforts(names: Sequence[str], ledger: Any) -> dict[str, float]:
@@ -45,12 +29,12 @@ def claims_of(derivations: str | None) -> dict[str, Any]:
 
 
 def chosen_ids(ids: Sequence[str], sources: Sequence[str], claims: dict[str, Any], ledger: Any) -> list[str]:
-    from xsec_sym import hints
+    from xsec_sym.record.store import nearest
 
     known = list(dict.fromkeys(c.source for c in claims.values()))
     for name in ids:
         if name not in claims:
-            complain(f"there is no claim {name}{hints.claim(name, claims, known)}")
+            complain(f"there is no claim {name}{nearest(name, claims)}")
     for key in sources:
         if key not in known:
             complain(f"there is no source {key}{nearest_or_all(key, known)}")
@@ -93,58 +77,52 @@ def write_json(out: TextIO, entries: list[Any], digits: int) -> None:
     out.write(layout(data) + "\n")
 
 
-def print_verdicts(entries: list[Any]) -> None:
+def print_verdicts(entries: Sequence[Any]) -> None:
     from xsec_sym.record import show
 
-    if not entries:
-        return
     if coloured():
         from rich.console import Console
 
         # where colours are forced into a pipe, no line is folded for its sake
-        console = Console(width=None if sys.stdout.isatty() else 200)
-        with console.capture() as table:
-            console.print(show.table(entries))
-        say(table.get().rstrip("\n"))
+        Console(width=None if sys.stdout.isatty() else 200).print(show.table(entries))
     else:
         for line in show.lines(entries):
             say(line)
     for entry in entries:
-        if not entry.settled and entry.note:
+        # what is confirmed has a note where its proof does not go through
+        if entry.note and (not entry.settled or entry.verdict == "confirmed"):
             say(f"{entry.id}: {one_line(entry.note)}")
 
 
-def closing(results: Sequence[Any], ledger: Any, gone: int, recorded: bool, seconds: float) -> str:
-    """All in one sentence.
+def print_so_far(met: Mapping[str, Verdict], claims: Mapping[str, Claim], expected: int) -> None:
+    """What was found before somebody pressed Ctrl-C."""
+    from xsec_sym.record.entry import Entry
 
-    >>> from types import SimpleNamespace as Made
-    >>> result = Made(entry=Made(id="a:1", verdict="proved", settled=True))
-    >>> closing([result], {"a:1": Made(verdict="confirmed")}, 0, False, 154)
-    '1 verdict: differs from the record (2 min 34 s)'
+    said = [
+        Entry(id=name, source=claims[name].source, label=claims[name].label, title=claims[name].title,
+              verdict=v.verdict, digits=v.digits, mutants=v.mutants, seconds=round(v.seconds, 2), note=v.note)
+        for name, v in met.items()
+    ]  # fmt: skip
+    if said:
+        print_verdicts(said)
+    if expected:
+        say(f"{len(said)} of {expected} verdicts, and none of them compared with the record")
+
+
+def closing(entries: Sequence[Any], gone: Sequence[str], ledger: Ledger, recorded: bool, seconds: float) -> str:
+    """The last line: whether all is as it was recorded. ``ledger`` is the record as it was before; ``gone`` are the ids
+    in it that nothing claims any more.
     """
-    entries = [r.entry for r in results]
-    differ = sum(e.id in ledger and ledger[e.id].verdict != e.verdict for e in entries)
     new = sum(e.id not in ledger for e in entries)
-    unsettled = sum(not e.settled for e in entries)
-    counted = [
-        (0 if recorded else differ, "differs from the record" if differ == 1 else "differ from the record"),
-        (0 if recorded else new, "not in the record"),
-        (0 if recorded else gone, "in the record that nothing claims"),
-        (unsettled, "not settled"),
-    ]
-    told = [said if len(entries) == 1 else f"{number} {said}" for number, said in counted if number]
-    head = f"{len(entries)} verdict{'s' * (len(entries) != 1)}" + ", recorded" * recorded
-    same = "" if recorded else ", as recorded" if len(entries) == 1 else ", all as recorded"
-    return f"{head}{': ' + ', '.join(told) if told else same} ({duration(seconds)})"
-
-
-def duration(seconds: float) -> str:
-    """A time as it is said.
-
-    >>> duration(0.84), duration(34.2), duration(154)
-    ('0.8 s', '34 s', '2 min 34 s')
-    """
-    if seconds < 9.95:
-        return f"{seconds:.1f} s"
-    minutes, rest = divmod(round(seconds), 60)
-    return f"{minutes} min {rest} s" if minutes else f"{rest} s"
+    other = sum(e.id in ledger and ledger[e.id].verdict != e.verdict for e in entries)
+    open_ = sum(not e.settled for e in entries)
+    same = len(entries) - new - other
+    if recorded:
+        parts = ["recorded"]
+    elif same == len(entries) and not gone:
+        parts = ["all as recorded" if same != 1 else "as recorded"]
+    else:
+        parts = [f"{same} as recorded"] * bool(same) + [f"{other} other than recorded"] * bool(other)
+        parts += [f"{new} not in the record"] * bool(new) + [f"{len(gone)} gone"] * bool(gone)
+    parts += [f"{open_} not settled"] * bool(open_)
+    return f"{len(entries)} verdict{'s' * (len(entries) != 1)}: {', '.join(parts)}; {seconds:.1f} s"

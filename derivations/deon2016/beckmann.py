@@ -108,7 +108,8 @@ closed = paper.claim(
     corrected=(u_i * (1 + ERF) + TAIL) / 2,
     edit="put back the minus sign of the exponent: exp(-u^2 / (alpha^2 (1 - u^2)))",
     where=[interval(u_i, -1, 1, open=True), ROUGH],
-    reading=AREA + "; at the poles the limits are meant",
+    reading=AREA + "; at the poles the form has no value: its limits are deon2016:22.pole.above and "
+    "deon2016:22.pole.below",
     reduces=CLOSED,
 )
 

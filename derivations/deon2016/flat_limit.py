@@ -94,7 +94,8 @@ paper.whole(
     "the flat surface is the limit of every parametric distribution of the paper as its roughness goes to 0",
     [f"claim.flat-limit.{name}" for name in ("beckmann", "ggx", "kagiwada-kalaba", "spherical-gaussian")],
     left=Rational(0),
-    reading="sigma goes to max(0, u) uniformly in u wherever m goes to 0; the last step is the argument above",
+    reading="with m the mean of 1 - cos(theta), |sigma(u) - max(0, u)| <= (1 + m) sqrt(2 m) for every u, "
+    "without 1 + m for unit mass: an argument in words (Lipschitz; Cauchy and Schwarz). That m goes to 0 is proved",
 )
 
 if __name__ == "__main__":

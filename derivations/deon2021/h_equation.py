@@ -152,7 +152,7 @@ for order in range(3):
             corrected=with_product(order).subs(at),
             edit=PRODUCT,
             where=where,
-            reading="H is that of (22), on both sides; Psi of the paper, its powers taken out of the integral. "
+            reading="H is that of (22), on both sides; Psi of the paper, its powers taken out of the integral; "
             + characteristic.THREE_TERMS,
         )
 
@@ -175,7 +175,7 @@ for order, psi in enumerate(characteristic.PSI):
         reading="the logarithm of both sides, t = tan(theta). The left side is H(mu) by (20) as mended, with the H "
         "of (22) under its integral"
         + ("" if order else "; at c = 1 the logarithm is infinite at t = 0: from c = 0.99 on, 20.0 tells the same")
-        + ". " + characteristic.THREE_TERMS,
+        + "; " + characteristic.THREE_TERMS,
     )  # fmt: skip
 
 h, psi_, k = (Function(name, real=True) for name in ("H", "Psi", "K"))

@@ -65,7 +65,7 @@ zeroth.measured(
 MIRRORED = (
     "the bracket of the mode at mu_o = -mu_i is the characteristic function, for order 1 up to a factor: what is "
     "infinite there must cancel; this gives A and E of (38) as well. The method by moments of H takes that for "
-    "granted, the one by transport knows nothing of it. "
+    "granted, the one by transport knows nothing of it; "
 )
 
 project.measured(

@@ -53,7 +53,7 @@ one_ring = paper.claim(
     instances=TRIED,
     reduces=RING,
     reading="the ring's normals have the cosine sqrt(xi_1) to the light; seen from -mu it has its cross-section, of "
-    "which 1 / pi goes out per steradian and, as to the azimuth, 2 pi / (2 pi) per cosine. " + MEAN,
+    "which 1 / pi goes out per steradian and, as to the azimuth, 2 pi / (2 pi) per cosine; " + MEAN,
 )
 
 

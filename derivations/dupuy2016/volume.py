@@ -214,7 +214,7 @@ paper.claim(
     printed=0,
     where=[interval(p, -1, 1), interval(q, -1, 1)],
     reading="tried the other way round: a D with a symmetric sigma would be symmetric, and have no third moment along "
-    "any omega. " + TRIANGLE + ": sigma is symmetric (4.hidden-asymmetry), D is not. What shows in sigma is M alone",
+    "any omega; " + TRIANGLE + ": sigma is symmetric (4.hidden-asymmetry), D is not. What shows in sigma is M alone",
     statement=True,
 )
 

@@ -23,8 +23,8 @@ from xsec_sym.proof import REGISTRY
 
 BLOCK = re.compile(r"^```(python|console)( >>)?(?: (\S+))?\n(.*?)^```$", re.M | re.S)
 ROOT = Path(__file__).parents[2]
-# the last column of a table of verdicts, and the time at the end of an entry's evidence or of a closing sentence
-SECONDS = re.compile(r"(?<=\s)\d+\.\d\d$|\b[\d.]+(e-\d+)? s$|\((\d+ min )?[\d.]+ s\)$", re.M)
+# the last column of a table of verdicts, and the time at the end of an entry's evidence
+SECONDS = re.compile(r" +\d+\.\d\d$|\b[\d.]+(e-\d+)? s$", re.M)
 
 
 class Said(NamedTuple):

@@ -4,6 +4,7 @@ import doctest
 import os
 import re
 import shlex
+import subprocess
 from importlib.util import find_spec
 from math import isclose
 
@@ -224,6 +225,10 @@ def test_links_lead_somewhere(name):
 def test_every_make_target_is_told():
     targets = set(re.findall(r"^([a-z-]+):", read("Makefile"), re.M)) - {"clean", "lint"}
     assert {t for t in targets if f"`make {t}`" not in read("CONTRIBUTING.md")} == set()
+    listed = subprocess.run(["make", "-s", "help"], cwd=ROOT, capture_output=True, text=True).stdout.splitlines()
+    assert {line.split()[1] for line in listed} == targets | {"clean", "lint"} and all(
+        line.split()[2:] for line in listed
+    )
 
 
 def test_names_of_the_licence_and_the_version_agree():

@@ -147,7 +147,7 @@ try:
 except ImportError as error:
     print(error)
 """
-    assert fresh(code) == "xsec_sym.kernels.compiled needs Numba: pip install '.[compiled]'"
+    assert fresh(code) == "xsec_sym.kernels.compiled needs Numba: pip install numba"
 
 
 def test_without_a_folder_for_the_cache(monkeypatch):

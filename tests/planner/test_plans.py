@@ -143,12 +143,6 @@ def test_what_is_chosen_is_the_cheapest_that_keeps_to_the_tolerance(fog):
                 assert turned.error * 2 > planned.material.tolerance or not turned.reason.startswith("its error")
 
 
-def test_why_a_method_that_is_installed_is_no_part_of_a_module(fog):
-    pytest.importorskip("numba")
-    compiled = {r.reason for m in fog.materials for r in m.rejected if r.method.startswith("kernel, compiled")}
-    assert compiled == {"needs numba, while a planned module imports NumPy and SciPy alone"}
-
-
 def test_narrow_ranges_let_other_models_in():
     """Near the sharp end Beckmann's distribution does for the spherical Gaussian; over a wide range it does not."""
     row = {"quantity": SG, "u": [0.2, 1.0], "tolerance": 0.02, "error": "absolute"}

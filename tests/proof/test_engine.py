@@ -41,6 +41,7 @@ from xsec_sym.proof.verify import verify
 
 a, u, x, t, phi = symbols("a u x t varphi", real=True)
 n = Symbol("n_p", integer=True, nonnegative=True)
+k = Symbol("k", integer=True)
 
 
 def equation(left, right, *where, **rest):
@@ -189,6 +190,31 @@ def test_a_fact_about_an_integrand_stays_there():
     step.fact(x, x, inside=(x, 0, 1))
     assert step.goal.piece.inside(x, -1, 0).sign(x) == "-"
     assert step.goal.piece.sign(x) is None
+
+
+@pytest.mark.parametrize(
+    ("script", "said"),
+    [
+        (
+            lambda step: step.lemma("test:2"),
+            "there is no claim called test:2; did you mean test:1? (test_engine.py, line",
+        ),
+        (lambda step: step.antiderivatve(x), "there is no move called antiderivatve; did you mean antiderivative?"),
+        (lambda step: step.antiderivative(1 / 0), "ZeroDivisionError: division by zero (test_engine.py, line"),
+    ],
+)
+def test_a_proof_that_cannot_be_run_is_told_and_settles_nothing(script, said):
+    claim = equation(Integral(x, (x, 0, u)), u**2 / 2, interval(u, 0, 1))
+    claim.proof(script)
+    verdict = verify(claim, {claim.id: claim})
+    assert verdict.verdict == "inconclusive" and verdict.note.startswith(f"the proof cannot be run: {said}")
+
+
+def test_a_proof_that_says_nothing_proves_nothing():
+    claim = equation(Integral(x, (x, 0, u)), u**2 / 2, interval(u, 0, 1))
+    claim.proof(lambda step: None)
+    verdict = verify(claim, {claim.id: claim})
+    assert verdict.verdict == "confirmed" and "the proof does not go through" in verdict.note
 
 
 def test_tonelli_wants_one_sign():

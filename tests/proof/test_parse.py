@@ -100,6 +100,24 @@ def test_hints():
         expression("2j")
 
 
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("2x", "a product needs its *, as in 2*x"),
+        ("x y + 1", "as in x*y"),
+        ("2(x)", "a product needs its *"),
+        ("x = y", "two sides of an equation are given apart"),
+        ("sin(x", "a bracket is not closed"),
+        ("sin(x))", "closes a bracket too many"),
+        ("2*lambda", "lambda is a word of Python's; choose another name, such as lambda_"),
+    ],
+)
+def test_what_is_most_likely_meant(text, hint):
+    with pytest.raises(ParseError) as caught:
+        expression(text, XY)
+    assert hint in str(caught.value)
+
+
 def test_conditions():
     assert condition("x > 0 and y < 1", XY) == sp.And(x > 0, y < 1)
     with pytest.raises(ParseError, match="is a value"):
@@ -118,6 +136,10 @@ def test_conditions():
         ("u in (-2, 2), u < -1 or u > 1 and u < 5", "u in (-2, 2); (u < -1) | ((u > 1) & (u < 5))"),
         ("u in (sqrt(2), exp(1))", "u in (sqrt(2), E)"),
         ("gamma in (0, 1)", "gamma in (0, 1)"),
+        ("x in [1, 1]", "x in {1}"),
+        ("x > 2", "x in (2, oo)"),
+        ("0 < x <= 1, y < x and y > 1/4", "x in (0, 1]; y in (1/4, x)"),
+        ("1 > x >= 0, x > 1/2", "x in [0, 1); x > 1/2"),
         ("", ""),
     ],
 )
@@ -145,7 +167,8 @@ def test_empty(text):
     ["u", "u in", "u in 3", "u in (0,1", "u in (0,1))", "u in (0)", "u in (0,1,2)", "u in {0,1]", "u in (I, 1)",
      "u in (x, 1)", "pi in (0,1)", "__a in (0,1)", "u in (0,1), u in (0,2)", "u in (0,1),", ",", ";;", "n in {oo}",
      "n in {I}", "n in {a}", "n in {0, ...}", "n in {0, 1/2, ...}", "a in (0,1) b in (0,1)", "u in (0,1), u",
-     "u in (0,1), 'a'", "u in (0,1), v > 2", "u in (9**9**9, oo)", "x" * 6000, "u in (0, 1)\0", "1u in (0,1)"],
+     "u in (0,1), 'a'", "u in (0,1), v**2 > 2", "a < b < c", "x > y, y > x", "0 < x > 1", "u > I",
+     "u in (9**9**9, oo)", "x" * 6000, "u in (0, 1)\0", "1u in (0,1)"],
 )  # fmt: skip
 def test_bad_ranges(text):
     with pytest.raises(ParseError):

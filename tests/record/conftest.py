@@ -40,6 +40,7 @@ def stand_in_for_engine(monkeypatch):
         said = said() if callable(said) else said
         return said if said.verdict != "proved" or said.note else Verdict(
             "proved", digits=digits, certificate=said.certificate, note=said.note,
+            mutants=0 if certificate else said.mutants,
             evidence={"witnesses": witnesses, "replayed": certificate is not None}, steps=((0, "shown"),))  # fmt: skip
 
     monkeypatch.setattr(verify, "verify", stand_in)

@@ -3,14 +3,16 @@ import json
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from sympy import Symbol, oo, pi, sqrt, symbols
+from sympy import Rational, Symbol, oo, pi, sqrt, symbols
 
 from xsec_sym.exact import RingCrossSection
 from xsec_sym.proof import Source, integers, interval
+from xsec_sym.proof.accuracy import Accuracy
 from xsec_sym.proof.domain import Choices
 from xsec_sym.proof.verdict import RANK, Verdict
 from xsec_sym.record.entry import PUBLIC, Entry
 from xsec_sym.record.show import told
+from xsec_sym.record.store import Ledger
 
 u, x = symbols("u x", real=True)
 n, q = Symbol("n", integer=True), Symbol("q", real=True)
@@ -88,3 +90,38 @@ def test_only_a_print_is_corrected():
         entry = Entry(verdict="claim-fails", printed=printed, **said)
         assert entry.heading("corrected") == heading and f"<th>{heading}</th>" in entry._repr_html_()
         assert f"\n{heading}\n" in told(entry, {})
+
+
+def test_what_stands_between_the_sides():
+    u = Symbol("u", real=True)
+    paper = Source("relations")
+    equal = paper.claim("1", "", left=u**2, printed=u * u + 0, where=[interval(u, 0, 1)])
+    within = Accuracy(Rational(1, 8), None, 0, 1)
+    near = paper.approximation("2", "", left=sqrt(1 + u), printed=1 + u / 2, accuracy=within, where=[interval(u, 0, 1)])
+    least = paper.inequality("3", "", u**2 + 1, 2 * u, where=[interval(u, 0, 1)])
+    entries = [Entry.of(c, Verdict("claim-holds", evidence={"within": "0.125"})) for c in (equal, near, least)]
+    assert [e.latex("printed" if e.printed else "corrected") for e in entries] == [
+        "u^{2} = u^{2}", r"\sqrt{u + 1} \approx \frac{u}{2} + 1", r"u^{2} - 2 u + 1 \geq 0",
+    ]  # fmt: skip
+    assert r"\approx" in near.latex() and "=" not in near.latex() and near.latex() in entries[1]._repr_latex_()
+    assert "near      within 0.125\n" in told(entries[1], {}) and "near " not in told(entries[0], {})
+    for form in ("pretty", "line"):
+        signs = [[s for s in "=≈≥" if f" {s} " in told(e, {}, form).split("where")[0]] for e in entries]
+        assert signs == [["="], ["≈"], ["≥"]]
+
+
+def test_the_record_equates_nothing_that_is_only_near():
+    told_near = {e.id for e in Ledger().values() if "equal" not in e.evidence.get("within", "equal")}
+    assert told_near and told_near == {e.id for e in Ledger().values() if e.relation() == "≈"}
+
+
+def test_a_whole_of_the_record_counts_its_parts():
+    ledger = Ledger()
+
+    def leaves(name):
+        parts = ledger[name].parts
+        return set().union(*map(leaves, parts)) if parts else {name}
+
+    wholes = [e for e in ledger.values() if e.parts]
+    assert len(wholes) > 40
+    assert {e.id: e.mutants for e in wholes} == {e.id: sum(ledger[p].mutants for p in leaves(e.id)) for e in wholes}

@@ -1,5 +1,6 @@
 import os
 import time
+from dataclasses import replace
 
 import pytest
 
@@ -34,7 +35,7 @@ def test_a_whole_brings_its_parts_and_carries_the_worst(claims, ledger, engine):
     engine[TWO] = Verdict("confirmed", digits=30)
     seen = []
     running = []
-    results = verify_all(claims, [BOTH], ledger, Settings(), tick=seen.append, now=running.append)
+    results = verify_all(claims, [BOTH], ledger, Settings(), tick=lambda name, _: seen.append(name), now=running.append)
     assert running == [[ONE], [TWO], []]
     assert words(results) == {ONE: "proved", TWO: "confirmed", BOTH: "confirmed"}
     assert sorted(seen) == [ONE, TWO, BOTH]
@@ -58,9 +59,10 @@ def test_replay_where_nothing_changed_and_anew_where_something_did(claims, ledge
 
 
 def test_a_replay_leaves_the_record_alone(claims, ledger, engine, tmp_path):
-    engine[ONE] = proved(ONE)
+    engine[ONE], engine[TWO] = replace(proved(ONE), mutants=24), Verdict("proved", mutants=9)
     record(ledger, claims, verify_all(claims, claims, ledger, Settings()))
     before = (tmp_path / "sample.json").read_text()
+    assert ledger[BOTH].mutants == 33, "a replay tries no mutants, and the whole keeps those of its parts"
     for settings in (Settings(), Settings(fresh=True)):
         record(ledger, claims, verify_all(claims, claims, ledger, settings))
         assert (tmp_path / "sample.json").read_text() == before

@@ -82,7 +82,7 @@ def test_a_page(browser, page):
     browser.run("document.querySelectorAll('details').forEach((d) => { d.open = true; })")
     if page not in ("index.html", "charts.html", "reference.html"):
         flat = browser.run("""
-            return [...document.querySelectorAll("math")].filter((m) => {
+            return [...document.querySelectorAll("math")].filter((m) => m.checkVisibility()).filter((m) => {
                 const box = m.getBoundingClientRect();
                 return box.width < 3 || box.height < 3 || m.querySelector("merror");
             }).length;""")
@@ -90,6 +90,11 @@ def test_a_page(browser, page):
     browser.look(width=375, height=740)
     wide, here = browser.run("return [document.documentElement.scrollWidth, innerWidth]")
     assert wide <= here == 375
+    # a name stands above what it names, without a gap
+    assert (
+        browser.run("return Math.max(0, ...[...document.querySelectorAll('.facts dt')].map((e) => e.offsetHeight))")
+        < 60
+    )
     assert browser.driver.get_log("browser") == []
 
 
@@ -99,6 +104,53 @@ def test_requests_would_be_refused_and_seen(browser):
     browser.run("document.body.append(Object.assign(document.createElement('img'), {src: 'http://127.0.0.1:9/a.png'}))")
     said = browser.driver.get_log("browser")
     assert any("Content Security Policy" in line["message"] for line in said)
+
+
+def test_a_link_leads_to_its_entry_and_opens_its_derivation(browser):
+    for width in (1200, 390):
+        browser.open("deon2016.html#22", width=width)
+        top, shown, open_ = browser.run("""
+            const entry = document.getElementById("22"), bar = document.querySelector(".bar").getBoundingClientRect();
+            const box = entry.getBoundingClientRect();
+            const proof = entry.querySelector("details");
+            return [box.top - Math.max(bar.bottom, 0), entry.checkVisibility(), proof.open];""")
+        assert 0 <= top < 60 and shown and open_
+    assert browser.run("return [...document.querySelectorAll('details[open]')].length") == 1
+
+
+def test_every_page_is_named_in_the_bar_at_every_width(browser):
+    for width in (390, 820, 1200):
+        browser.open("index.html", width=width)
+        hidden = browser.run("""
+            const end = document.querySelector("#theme").getBoundingClientRect().left;
+            return [...document.querySelectorAll(".bar a")].map((a) => a.getBoundingClientRect())
+                .filter((box) => box.left < 0 || box.right > end).length;""")
+        assert hidden == 0
+
+
+@pytest.mark.parametrize("width", [820, 1200, 1600])
+def test_table_1_fits_and_is_large_enough_to_be_read(browser, width):
+    browser.open("table1.html", width=width)
+    over, cut, small = browser.run("""
+        const box = document.querySelector(".scroll");
+        const cells = [...document.querySelectorAll(".table1 td, .table1 tbody th")];
+        const parts = [...document.querySelectorAll(".table1 td mfrac > *")]
+            .filter((m) => !m.closest("msup, msub, msubsup, mfrac mfrac mfrac"));
+        return [box.scrollWidth - box.clientWidth, cells.filter((c) => c.scrollWidth > c.clientWidth + 1).length,
+                Math.min(...parts.map((m) => parseFloat(getComputedStyle(m).fontSize)))];""")
+    assert over <= 0 and cut == 0 and small >= 12
+    # every cell says which column it is of, where the head of the table is not shown
+    assert browser.count(".table1 thead") == (width == 1600) and (browser.count("td .of") == 40) == (width < 1600)
+
+
+def test_an_exponent_is_large_enough_to_be_read(browser):
+    browser.open("deon2016.html#22")
+    assert (
+        browser.run("""
+        const part = document.querySelector("[id='22'] msup mfrac > *");
+        return parseFloat(getComputedStyle(part).fontSize);""")
+        > 11
+    )
 
 
 def test_mathematics_is_set_by_the_browser(browser):

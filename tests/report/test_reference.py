@@ -49,10 +49,15 @@ def test_an_example_would_fail_if_it_were_wrong():
 
 def test_the_page(site):
     page = Page(site.text("reference.html"))
+    index = [
+        e for e in page.elements if e["tag"] == "a" and any(w["attrs"].get("class") == "names" for w in e["within"])
+    ]
+    assert sorted(e["attrs"]["href"] for e in index) == sorted(f"#api:{n.path}" for n in NAMES)
     articles = page.of_class("name")
     assert [a["attrs"]["id"] for a in articles] == [f"api:{n.path}" for m in FOUND.values() for n in m.names]
     ggx = next(a for a in articles if a["attrs"]["id"] == "api:xsec_sym.kernels.sigma_ggx")
     assert "sigma_ggx(u, alpha)" in ggx["text"] and ">>> sigma_ggx(" in ggx["text"]
+    assert 'href="deon2016.html#25"' in site.text("reference.html"), "what a docstring cites can be read"
     assert "projected area" in ggx["attrs"]["data-find"]
     assert " at 0x" not in site.text("reference.html"), "what changes from run to run"
     assert 'href="reference.html"' in site.text("index.html")

@@ -190,6 +190,19 @@ def test_the_same_data_give_the_same_picture(data, tmp_path, picture):
     assert all(m.name in text for m in toys.METHODS[:5])
 
 
+def test_every_column_of_maps_has_a_labelled_axis(data):
+    """The last row may have fewer maps than the others."""
+    made = stability.figure(data)
+    maps = [frame for frame in made.axes if frame.get_visible() and frame.get_title()]
+    assert len(maps) % stability.COLUMNS and len(maps) > stability.COLUMNS
+    lowest = {}
+    for frame in maps:
+        lowest[round(frame.get_position().x0, 3)] = frame  # row by row: the last one wins
+    assert len(lowest) == stability.COLUMNS
+    for frame in lowest.values():
+        assert frame.get_xlabel() and any(t.get_visible() and t.get_text() for t in frame.get_xticklabels())
+
+
 def test_a_map_shows_where_a_method_fails(data):
     found = stability.maps(data)
     assert next(iter(found)) == "exact"

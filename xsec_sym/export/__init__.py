@@ -6,15 +6,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from xsec_sym.export.assemble import HandMade, available, module
+    from xsec_sym.export.assemble import available, module, names
     from xsec_sym.export.kernel import Refusal
     from xsec_sym.export.rules import NotShown
 
-__all__ = ["HandMade", "NotShown", "Refusal", "available", "module"]
+__all__ = ["NotShown", "Refusal", "available", "module", "names"]
 
 # Not before it is asked for: the names of the recipes, which a shell completes, need no SymPy.
-_HOME = {"NotShown": "rules", "Refusal": "kernel", "HandMade": "assemble", "available": "assemble",
-         "module": "assemble"}  # fmt: skip
+_HOME = {"NotShown": "rules", "Refusal": "kernel", "available": "assemble", "module": "assemble", "names": "assemble"}
 
 
 def __getattr__(name: str) -> Any:

@@ -12,7 +12,6 @@ from typing import Any
 
 from sympy import Integer, Rational, oo
 
-from xsec_sym import kernels
 from xsec_sym.export.floats import SPECIAL
 from xsec_sym.export.kernel import VERIFIED, Branch, Refusal, branches, core, named, python_names
 from xsec_sym.export.measure import judged, largest
@@ -44,10 +43,6 @@ Record = Mapping[str, Entry]
 Errors = tuple[float, float]
 
 
-class HandMade(Refusal):
-    """A name that is a hand-made kernel, to be imported and not exported."""
-
-
 @cache
 def recorded() -> Ledger:
     return Ledger()
@@ -77,6 +72,13 @@ def closed(record: Record) -> Iterator[tuple[Entry, list[Branch]]]:
             yield entry, _branches(entry, record)
 
 
+def names(record: Record | None = None) -> list[str]:
+    """The lines of `available`, as a terminal shows them."""
+    found = available(record)
+    wide = max(map(len, found), default=0)
+    return [f"{name:{wide}}  {said}" for name, said in found.items()]
+
+
 def _stands(record: Record, name: str) -> bool:
     return name in record and record[name].verdict in VERIFIED | {"divergent"}
 
@@ -85,16 +87,9 @@ def _entry(record: Record, name: str) -> Entry:
     try:
         return record[name]
     except KeyError:
-        if name in kernels.__all__ and name not in RECIPES:
-            raise HandMade(
-                f"{name} is a kernel made by hand, which is imported and not exported: "
-                f"from xsec_sym.kernels import {name}"
-            ) from None
-        if any(e.source == name for e in record.values()):
+        if any(entry.source == name for entry in record.values()):
             raise Refusal(f"{name} is a source: export its equations by their ids") from None
-        raise Refusal(
-            f"there is nothing to export by the name {name}{nearest(name, [*RECIPES, *kernels.__all__, *record])}"
-        ) from None
+        raise Refusal(f"there is nothing to export by the name {name}{nearest(name, [*RECIPES, *record])}") from None
 
 
 def _branches(entry: Entry, record: Record) -> list[Branch]:
@@ -243,7 +238,8 @@ def kernel_module(module: str, record: Record, errors: Mapping[str, Errors]) -> 
     head = (
         f'"""{GENERATED[module]}\n\n'
         "Generated from the record of verified equations by `python -m xsec_sym.export`: do not edit.\n"
-        '"""\n\nimport numpy as np\n\nfrom xsec_sym.kernels._support import elementwise\n'
+        '"""\n\nfrom __future__ import annotations\n\n'
+        "import numpy as np\n\nfrom xsec_sym.kernels._support import elementwise\n"
     )
     parts = [written(r.name, _entry(record, r.cell), record, r, errors.get(r.name)) for r in recipes]
     return "\n\n".join([head, *parts])

@@ -56,7 +56,7 @@ def regressor(seed: int, length: int, evaluations: int) -> Any:
     try:
         from pyoperon.sklearn import SymbolicRegressor
     except ImportError as error:
-        raise ImportError("the search needs pyoperon: install the extra with pip install '.[search]'") from error
+        raise ImportError("the search needs pyoperon: install the extra with pip install 'xsec_sym[search]'") from error
     return SymbolicRegressor(
         allowed_symbols="add,sub,mul,div,constant,variable",
         objectives=["mse", "length"],

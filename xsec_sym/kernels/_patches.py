@@ -110,9 +110,13 @@ class Joined:
 
     def __call__(self, x: np.ndarray, y: np.ndarray, cells: np.ndarray) -> np.ndarray:
         """At points each with the number of its own cell."""
-        x = (x - self.middles[0][cells]) * self.scales[0][cells]
-        y = (y - self.middles[1][cells]) * self.scales[1][cells]
-        own = np.take(self.padded, cells, axis=1)
+        order = np.argsort(cells, kind="stable")
+        x, y = x[order], y[order]
+        # What is repeated in runs costs less than half of what is gathered point by point.
+        many = np.bincount(cells, minlength=self.padded.shape[1])
+        middles, scales = np.repeat(self.middles, many, axis=1), np.repeat(self.scales, many, axis=1)
+        x, y = (x - middles[0]) * scales[0], (y - middles[1]) * scales[1]
+        own = np.repeat(self.padded, many, axis=1)
         rows = np.zeros((self.ends[-1] - self.ends[-2], y.size), self.dtype)
         # Arrays of one shape cost less than a row that is repeated, where rows are short.
         x = np.repeat(x[np.newaxis], len(rows), axis=0)
@@ -120,7 +124,9 @@ class Joined:
             active = rows[: end - start]
             active *= x[: end - start]
             active += own[start:end]
-        return _sum(rows, y)
+        found = np.empty_like(y)
+        found[order] = _sum(rows, y)
+        return found
 
 
 def _passed(edges: list[float], x: np.ndarray) -> np.ndarray:

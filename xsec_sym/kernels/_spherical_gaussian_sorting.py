@@ -77,7 +77,7 @@ class Left:
             ends = np.cumsum(np.bincount(numbers, minlength=len(regions.REGIONS))).tolist()
             inside = [slice(*ends) for ends in pairwise([0, *ends])]
             p = regions.points(self.u[places], self.alpha[places])
-            x, y, cells = np.empty_like(p.v), np.empty_like(p.v), np.empty(p.v.size, np.intp)
+            x, y, cells = np.empty_like(p.v), np.empty_like(p.v), np.empty(p.v.size, np.uint8)
             # Cells are told apart in the precision that they are where points are many.
             dtype = self.grid.joined.dtype.type
             rounded = None if dtype is np.float64 else regions.points(p.u, p.alpha, dtype)

@@ -1,5 +1,7 @@
 """What every kernel shares: NumPy's semantics for a function of real arguments, and error-free sums and products."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Collection
 from typing import Any

@@ -1,5 +1,7 @@
 """Beckmann's distribution: NDF, cross-section and Smith Lambda from one stable function of the slope."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from functools import partial
 

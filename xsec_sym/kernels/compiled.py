@@ -1,10 +1,12 @@
-"""The spherical Gaussian's cross-section compiled by Numba, an optional extra: `pip install '.[compiled]'`.
+"""The spherical Gaussian's cross-section compiled by Numba, which is an extra: `pip install numba`.
 
 The same functions as in `xsec_sym.kernels`, from the same tables, several times faster on large arrays. Import this
 module itself, `from xsec_sym.kernels import compiled`: the package does without Numba. The first call of a machine
 compiles for some 10 s, and keeps the result in a cache where there is a folder that can be written; from then on the
 first call of a process takes 0.3 s.
 """
+
+from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
@@ -17,7 +19,7 @@ try:
 except ModuleNotFoundError as error:
     if error.name != "numba":
         raise
-    raise ImportError("xsec_sym.kernels.compiled needs Numba: pip install '.[compiled]'") from error
+    raise ImportError("xsec_sym.kernels.compiled needs Numba: pip install numba") from error
 
 from xsec_sym.kernels import _spherical_gaussian_regions as regions
 from xsec_sym.kernels._support import elementwise, result_dtype

@@ -1,5 +1,7 @@
 """Cross-section of a Dirac ring: the kernel from which every axisymmetric cross-section is an integral."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from xsec_sym.kernels._support import elementwise, horner, quick_two_sum, two_prod, two_square, two_sum

@@ -1,5 +1,7 @@
 """The ellipsoidal distribution of Kagiwada and Kalaba: NDF and cross-section, stable from the sphere to the disk."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from xsec_sym.kernels._support import elementwise, horner

@@ -1,5 +1,7 @@
 """The three H functions of a half-space of Lambertian spheres, their phase function cut after P_2."""
 
+from __future__ import annotations
+
 from functools import cache
 from typing import NamedTuple
 

@@ -18,6 +18,8 @@ absorption moves, is split off. (2) phi_l at nodes crowded at mu = 0, where it b
 Fock's H functions, which `tests/kernels/test_half_space.py` compares with, share nothing of this.
 """
 
+from __future__ import annotations
+
 import functools
 from collections.abc import Callable
 

@@ -1,5 +1,7 @@
 """Chandrasekhar's H function for isotropic scattering, and the half-space BRDF that it makes."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from xsec_sym.kernels import _isotropic_tables as tables

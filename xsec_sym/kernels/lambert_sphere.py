@@ -1,5 +1,7 @@
 """White Lambertian spheres: their phase function, how to sample it, and the half-space that is full of them."""
 
+from __future__ import annotations
+
 import functools
 import math
 from collections.abc import Sequence

@@ -1,5 +1,7 @@
 """Short formulas for the half-space of Lambertian spheres, closer than those of `deon2021` at no greater cost."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 
 import numpy as np

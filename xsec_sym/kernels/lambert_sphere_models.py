@@ -3,6 +3,8 @@
 Rivals of `brdf_lambert_sphere`, which is exact: same arguments, same meaning, and the errors that they state.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import NamedTuple
 

@@ -1,5 +1,7 @@
 """The squared spheroidal and ellipsoidal lobes, in forms without a difference of nearly equal numbers."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from xsec_sym.kernels._support import elementwise, split, two_sum

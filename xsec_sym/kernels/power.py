@@ -1,5 +1,7 @@
 """Cross-sections of the powers of the cosine: the monomial basis of any polynomial NDF."""
 
+from __future__ import annotations
+
 import math
 from functools import cache
 

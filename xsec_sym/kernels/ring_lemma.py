@@ -1,5 +1,7 @@
 """The cross-section of any axisymmetric NDF, by quadrature over Dirac rings."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from functools import cache
 from html import escape
@@ -22,6 +24,9 @@ TOGETHER = 64
 # geometric continuation, and the exponent of a singularity is read where 1 - x is a power of 2, free of rounding.
 GRADES = 36
 PROBES = np.exp2(-np.arange(40.0, 53.0))
+# Angles at which the density is looked at for peaks and gaps that the nodes of panels might miss; and how many of the
+# sharpest are cut out, or a density that oscillates would be cut at every turn.
+LOOKS, MOST_CUTS = 2**13, 64
 
 
 @cache
@@ -127,6 +132,7 @@ class CrossSection:
         if not (np.abs(self.breakpoints) <= 1.0).all():
             raise ValueError("breakpoints must be cosines in [-1, 1]")
         self._vectorised = self._takes_arrays()
+        self._cuts = np.union1d(self.breakpoints, self._turns())
         # What a fully lit ring adds: 2 pi u x D for x of the sign of u. At u = 0 there is none.
         self._lit = {sign: self._hemisphere(sign, np.abs, 1.0) for sign in (1.0, -1.0)}
         sides = [self._hemisphere(sign, lambda x: 2.0 * np.sqrt((1.0 - x) * (1.0 + x)), 1.5) for sign in (1.0, -1.0)]
@@ -169,7 +175,7 @@ class CrossSection:
             root_d, x = S * np.sin(phi), S * np.cos(phi)
             return self._panel(x, width * root_d * _dark(root_d, U * np.abs(x)))
 
-        inner = np.arccos(np.clip(self.breakpoints / s[:, None], -1.0, 1.0))
+        inner = np.arccos(np.clip(self._cuts / s[:, None], -1.0, 1.0))
         regular = np.broadcast_to(np.linspace(0.0, np.pi, 9), (u.size, 9))
         edges = np.sort(np.concatenate([regular, inner], axis=1), axis=1)
         owner = np.repeat(np.arange(u.size), edges.shape[1] - 1)
@@ -193,6 +199,23 @@ class CrossSection:
         # A jump between an edge and its node is not seen.
         return f @ rule, np.abs(f) @ rule, error, noise + GAP * (np.abs(f[:, 0]) + np.abs(f[:, -1]))
 
+    def _turns(self) -> np.ndarray:
+        """Cosines on either side of where the density stops rising or falling: a peak is then within a panel that is
+        as narrow, and its neighbours have nodes near its feet.
+        """
+        x = np.cos((np.arange(LOOKS) + 0.5) * (np.pi / LOOKS))
+        D = self._density(x, poles=True)
+        with np.errstate(all="ignore"):
+            rise, size = np.diff(D), np.abs(D)
+            bend = np.abs(np.diff(rise)) / (size[:-2] + size[1:-1] + size[2:])
+            # Rounding errors make bends as well.
+            turn = (np.sign(rise[1:]) * np.sign(rise[:-1]) <= 0.0) & (bend > 1e-8) & np.isfinite(bend)
+        # Panels have an edge at 0 anyway.
+        turn[LOOKS // 2 - 2 : LOOKS // 2] = False
+        turns = np.flatnonzero(turn)
+        chosen = turns[np.argsort(-bend[turns], kind="stable")[:MOST_CUTS]]
+        return x[np.r_[chosen, chosen + 2]]
+
     def _hemisphere(self, sign: float, weigh: Callable, exponent: float) -> tuple[float, float]:
         """The integral of weigh(x) D(x) over the hemisphere x sign > 0, and its error.
 
@@ -209,7 +232,7 @@ class CrossSection:
             return float(np.copysign(np.inf, near[-1])), np.inf
 
         grades = sign * (1.0 - np.append(np.exp2(-np.arange(GRADES + 1.0)), EPS / 2))
-        cuts = self.breakpoints[self.breakpoints * sign > 0.0]
+        cuts = self._cuts[self._cuts * sign > 0.0]
         edges = np.unique(np.clip(np.r_[grades, cuts], *sorted((grades[0], grades[-1]))))
         # The middle of the narrowest panel rounds to its edge at 0.
         owner = np.searchsorted(sign * grades, sign * 0.5 * (edges[1:] + edges[:-1]), side="right") - 1
@@ -283,8 +306,9 @@ def cross_section(ndf: Callable, *, rtol: float = 1e-10, breakpoints: Sequence[f
     toward the poles only. Where it does so too fast, sigma is infinite on that side and is returned as inf; so are
     integrals that converge more slowly than a growth of (1 - |x|)^-0.995, and those of a density that still grows like
     a non-integrable power at the last cosines below 1, for no double can tell them apart.
+    D may be negative: sigma is then that of its positive part less that of its negative one.
     rtol: the relative error aimed at. breakpoints: cosines where D jumps or has a narrow peak away from the poles. A
-    jump is found anyway, more slowly; a peak or a gap between the nodes of a panel is not, which may be 0.04 wide, and
+    jump is found anyway, more slowly, and so is a peak or a gap of 0.0005 or wider; a narrower one may be missed, and
     no error tells.
 
     The error is absolute, an estimate and no bound; it is large where the aim was missed. u of any shape; NaN outside

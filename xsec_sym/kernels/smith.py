@@ -1,5 +1,7 @@
 """Smith's masking and shadowing functions of Lambda, from 0 to infinity, in forms that cannot overflow."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from xsec_sym.kernels._support import elementwise

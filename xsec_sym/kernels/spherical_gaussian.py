@@ -1,5 +1,7 @@
 """The spherical Gaussian (von Mises-Fisher distribution): NDF and cross-section, kappa = 2/alpha^2."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from xsec_sym.kernels import _spherical_gaussian_core as core

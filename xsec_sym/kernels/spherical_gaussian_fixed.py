@@ -1,5 +1,7 @@
 """The spherical Gaussian's cross-section for one roughness: a table made on the spot."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 

@@ -1,5 +1,7 @@
 """Derivatives of the spherical Gaussian's cross-section, by the cosine and by the roughness."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from xsec_sym.kernels._spherical_gaussian_core import WHOLE

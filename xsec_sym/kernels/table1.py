@@ -3,6 +3,8 @@
 Generated from the record of verified equations by `python -m xsec_sym.export`: do not edit.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from xsec_sym.kernels._support import elementwise

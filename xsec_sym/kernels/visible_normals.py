@@ -1,6 +1,9 @@
 """Visible normals: their density, and exact sampling for viewers anywhere, below the horizon included."""
 
+from __future__ import annotations
+
 import math
+from typing import Self
 
 import numpy as np
 
@@ -186,8 +189,8 @@ class _Cosines:
         self.far = np.where(self.lit, self.s * self.s / (1.0 + self.start), 1.0)
         self._build()
 
-    def at(self, chosen: np.ndarray) -> "_Cosines":
-        part = object.__new__(_Cosines)
+    def at(self, chosen: np.ndarray) -> Self:
+        part = object.__new__(type(self))
         part.__dict__.update({name: value[chosen] for name, value in self.__dict__.items()})
         return part
 

@@ -182,6 +182,27 @@ def integral(e: sp.Integral) -> Piece:
 # --- series ------------------------------------------------------------------------------------------------------
 
 
+def _all_zero_after(term: Expr, n: Symbol, first: Expr) -> Expr | None:
+    """The last index before a factor 0^(a n + b), a > 0, makes all terms 0, if the other factors are finite there."""
+    factors = list(sp.Mul.make_args(term))
+    zero = next((p for p in factors if isinstance(p, sp.Pow) and p.base == 0 and p.exp.has(n)), None)
+    if zero is None:
+        return None
+    factors.remove(zero)
+    slope, start = sp.diff(zero.exp, n), zero.exp.subs(n, 0)
+    rest = sp.Mul(*factors)
+    ratio = rest if rest.is_rational_function(n) else sp.hypersimp(rest, n)
+    if (
+        not (slope.is_Rational and slope > 0 and start.is_Rational)
+        or ratio is None
+        or not ratio.is_rational_function(n)
+    ):
+        return None
+    end = max(sp.floor(-start / slope), first - 1)
+    poles = sp.Poly(sp.denom(sp.cancel(ratio)), n).ground_roots()
+    return None if any(root >= end for root in poles) else end
+
+
 def series(e: sp.Sum) -> Piece:
     """A recipe for the ball of a finite sum, or of a series whose ratio of terms is bounded below 1."""
     if len(e.limits) != 1:
@@ -204,6 +225,8 @@ def series(e: sp.Sum) -> Piece:
         return finite
     if not (first.is_Integer and last == sp.oo):
         raise NoEnclosure(f"the limits of {said(e)} are not integers or infinity")
+    if (end := _all_zero_after(e.function, n, first)) is not None:
+        return series(sp.Sum(e.function, (n, first, end)))
     ratio = sp.hypersimp(e.function, n)
     if ratio is None or not ratio.is_rational_function(n):
         raise NoEnclosure(f"{said(e)} has no proved bound on its tail")

@@ -17,6 +17,7 @@ from xsec_sym.proof.domain import Domain, domain
 from xsec_sym.proof.magnitude import Magnitude
 from xsec_sym.proof.typeset import latex
 
+NEAR = ("approximation", "accuracy")  # kinds whose sides are only near to each other
 KINDS = ("equation", "definition", "statement", "whole", "out-of-scope", "approximation", "accuracy")
 
 
@@ -71,8 +72,8 @@ class Claim:
 
     def latex(self) -> str:
         """What the source prints, set from the very objects that are tested."""
-        left = latex(self.left)
-        return left if self.printed is None else f"{left} = {latex(self.printed)}"
+        left, sign = latex(self.left), r"\approx" if self.kind in NEAR else "="
+        return left if self.printed is None else f"{left} {sign} {latex(self.printed)}"
 
     def _repr_latex_(self) -> str:
         return f"$\\displaystyle {self.latex()}$"

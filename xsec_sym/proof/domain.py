@@ -20,7 +20,7 @@ class EmptyDomain(ValueError):
     >>> interval(Symbol("u", real=True), 1, 0)
     Traceback (most recent call last):
     ...
-    xsec_sym.proof.domain.EmptyDomain: the interval from 1 to 0 for u is empty; the lower bound comes first
+    xsec_sym.proof.domain.EmptyDomain: the interval from 1 to 0 for u is empty: the lower bound comes first
     """
 
 
@@ -140,8 +140,11 @@ def interval(symbol: Symbol, low: Any, high: Any, *, open: str | bool = False) -
     'u in (-1, 1]'
     """
     low, high = sympify(low), sympify(high)
+    if low.is_number and low == high and not open:
+        raise EmptyDomain(f"the interval [{low}, {high}] for {symbol} is one point: put {low} for {symbol} instead")
     if low.is_number and high.is_number and not low < high:
-        raise EmptyDomain(f"the interval from {low} to {high} for {symbol} is empty; the lower bound comes first")
+        why = "it has no point" if low == high else "the lower bound comes first"
+        raise EmptyDomain(f"the interval from {low} to {high} for {symbol} is empty: {why}")
     return Interval(symbol, low, high, open in (True, "left"), open in (True, "right"))
 
 

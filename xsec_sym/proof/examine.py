@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from sympy import Integer, Rational, S, Symbol, oo, sympify
+from sympy import Expr, Integer, Integral, Rational, S, Symbol, oo, sympify
 
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.domain import Interval
@@ -43,6 +43,7 @@ def _scripts(claim: Claim) -> Iterator[Script]:
     reals = [v for v in claim.domain.variables if isinstance(v, Interval)]
     if len(reals) <= 3:
         yield lambda step: _each_sign(step, [v.symbol for v in reals])
+    yield from _primitives(claim)
     for variable in reals:
         for at in _inside(variable):
             yield _one_value(variable.symbol, at)
@@ -55,6 +56,26 @@ def _each_sign(step: Step, symbols: list[Symbol]) -> None:
         return
     for branch in step.cases(symbols[0]):
         _each_sign(branch, symbols[1:])
+
+
+def _primitives(claim: Claim) -> Iterator[Script]:
+    """Of an integral up to a variable, or from one, the other side may be an antiderivative."""
+    for side, other, swapped in ((claim.left, claim.form, False), (claim.form, claim.left, True)):
+        if not isinstance(side, Integral) or len(side.limits) != 1 or len(side.limits[0]) != 3 or other.has(Integral):
+            continue
+        t, *ends = side.limits[0]
+        for sign, end in zip((-1, 1), ends, strict=True):
+            if isinstance(end, Symbol) and not other.has(t):
+                yield _primitive(sign * other.xreplace({end: t}), swapped)
+
+
+def _primitive(primitive: Expr, swapped: bool) -> Script:
+    def script(step: Step) -> None:
+        if swapped:
+            step.swap()
+        step.antiderivative(primitive)
+
+    return script
 
 
 def _one_value(symbol: Symbol, at: Rational) -> Script:

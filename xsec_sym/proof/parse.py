@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 from difflib import get_close_matches
 from itertools import pairwise
+from keyword import iskeyword
 from math import log2
 from typing import Any, NoReturn
 
@@ -135,11 +136,30 @@ def _read(text: str, symbols: Mapping[str, Symbol]) -> Any:
             warnings.simplefilter("ignore")
             tree = ast.parse(source, mode="eval")
     except SyntaxError as error:
-        near = f" near character {error.offset}" if error.offset else ""
-        raise ParseError(f"{short(text)} cannot be read as an expression{near}") from None
+        raise ParseError(f"{short(text)} cannot be read as an expression{_why(source, error)}") from None
     except (ValueError, MemoryError, RecursionError):
         raise ParseError(f"{short(text)} cannot be read as an expression") from None
     return _Reader(source).value(tree.body, symbols, 0)
+
+
+_LOGIC = ("and", "or", "not", "in", "is", "None", "True", "False")
+_PRODUCT = re.compile(r"(?<![\w.])(\d[\d.]*(?:e[+-]?\d+)?) *([^\W\d]\w*)|(\w+|\)) +(\w+|\()")
+
+
+def _why(source: str, error: SyntaxError) -> str:
+    """What is most likely meant, or where the trouble is."""
+    words = [word for word in re.findall(r"[^\W\d]\w*", source) if iskeyword(word) and word not in _LOGIC]
+    if source.count("(") != source.count(")"):
+        return (
+            ": a bracket is not closed" if source.count("(") > source.count(")") else ": it closes a bracket too many"
+        )
+    if words:
+        return f": {words[0]} is a word of Python's; choose another name, such as {words[0]}_"
+    if re.search(r"(?<![<>=!])=(?!=)", source):
+        return ": the two sides of an equation are given apart, and a value is fixed as in x in {3}"
+    if product := _PRODUCT.search(source):
+        return ": a product needs its *, as in " + short("*".join(g for g in product.groups() if g))
+    return f" near character {error.offset}" if error.offset else ""
 
 
 @dataclass(frozen=True)
@@ -272,7 +292,9 @@ class _Reader:
 
     def call(self, node: ast.Call, scope: Mapping[str, Symbol], depth: int) -> Expr:
         if not isinstance(node.func, ast.Name):
-            raise ParseError(f"{self.text(node)} calls something that is not the name of a function")
+            raise ParseError(
+                f"{self.text(node)} calls something that is not the name of a function; a product needs its *"
+            )
         name = _ALIASES.get(node.func.id, node.func.id)
         if name not in ARITY:
             near = get_close_matches(name, [*ARITY, *_ALIASES], 1)

@@ -14,7 +14,7 @@ from sympy.logic.boolalg import Boolean
 
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.domain import Choices, Domain, EmptyDomain, Integers, Interval, domain, interval
-from xsec_sym.proof.parse import LONGEST, ParseError, condition, demand_name, expression, short, unbound
+from xsec_sym.proof.parse import CONSTANTS, LONGEST, ParseError, condition, demand_name, expression, short, unbound
 
 
 def equation(lhs: Any, rhs: Any, where: Any = "") -> Claim:
@@ -44,16 +44,20 @@ def _side(side: Any, symbols: Mapping[str, Symbol]) -> Expr:
 
 
 _RANGE = re.compile(r"\s*(\w+)\s+in\b\s*(.*)", re.DOTALL)
+_COMPARISON = re.compile(r"<=?|>=?")
 _TOKEN = re.compile(r"[(\[{]|[)\]}]|,|;|\band\b")
 
 
 def ranges(text: str) -> Domain:
     """The domain that a text describes: ranges and conditions, separated by commas, semicolons or ``and``.
 
-    Raises `ParseError` for what cannot be read, `EmptyDomain` where nothing is left.
+    A variable may be bounded by comparisons alone. Raises `ParseError` for what cannot be read, `EmptyDomain` where
+    nothing is left.
 
     >>> ranges("u in (-1, 1], n in {0, 1, 2}, x in [0, oo), u*x < 1").text()
     'u in (-1, 1]; n in {0, 1, 2}; x in [0, oo); u*x < 1'
+    >>> ranges("0 < a <= 1, b > a").text()
+    'a in (0, 1]; b in (a, oo)'
     """
     if len(text) > LONGEST:
         raise ParseError(f"a domain of {len(text)} characters is too long; the limit is {LONGEST}")
@@ -70,8 +74,38 @@ def ranges(text: str) -> Domain:
             symbols[name] = found[-1].symbol
         else:
             conditions.append(clause)
-    place = domain([*found, *(condition(c, symbols) for c in conditions)])
+    compared, conditions = _compared(conditions, symbols)
+    place = domain([*found, *compared, *(condition(c, symbols) for c in conditions)])
     return _inhabited(place)
+
+
+def _compared(clauses: list[str], symbols: dict[str, Symbol]) -> tuple[list[Interval | Choices], list[str]]:
+    """Ranges of variables that only comparisons bound, as in 0 < x <= 1; and the clauses that are left."""
+    ends: dict[str, dict[bool, tuple[Expr, bool]]] = {}
+    left = []
+    for clause in (part for c in clauses for part in ([c] if re.search(r"\bor\b", c) else _split(c, "and"))):
+        sides, signs = [side.strip() for side in _COMPARISON.split(clause)], _COMPARISON.findall(clause)
+        pairs = list(zip(sides, signs, sides[1:], strict=False))
+        names = {s for s in sides if s.isidentifier() and s not in symbols and s not in CONSTANTS}
+        names = names - ends.keys() or names
+        if len(names) != 1 or not pairs or not all(names & {a, b} for a, _, b in pairs):
+            left.append(clause)
+            continue
+        (name,) = names
+        demand_name(name)
+        known = {**symbols, **{other: Symbol(other, real=True) for other in ends if other != name}}
+        bounds = {(a == name) == (sign[0] == ">"): (expression(b if a == name else a, known), len(sign) == 1)
+                  for a, sign, b in pairs}  # fmt: skip
+        if len(bounds) < len(pairs) or bounds.keys() & ends.get(name, {}).keys():
+            left.append(clause)  # a second bound on one side narrows the range as a condition
+        else:
+            ends.setdefault(name, {}).update(bounds)
+    found = []
+    for name, bounds in ends.items():
+        (low, after), (high, before) = bounds.get(True, (-oo, True)), bounds.get(False, (oo, True))
+        found.append(_between(name, low, high, after, before))
+        symbols[name] = found[-1].symbol
+    return found, left
 
 
 def _clauses(text: str) -> Iterator[str]:
@@ -118,17 +152,27 @@ def _variable(name: str, text: str, symbols: Mapping[str, Symbol]) -> Interval |
     if text[0] == "{":
         return _choices(name, items, text)
     if len(items) != 2:
-        raise ParseError(f"{short(f'{name} in {text}')} is no interval: it has {len(items)} bounds instead of 2")
+        raise ParseError(
+            f"{short(f'{name} in {text}')} is no interval: it has {len(items)} bound{'s' * (len(items) != 1)}, not 2"
+        )
     low, high = (expression(i, symbols) for i in items)
+    return _between(name, low, high, text[0] == "(", text[-1] == ")")
+
+
+def _between(name: str, low: Expr, high: Expr, after: bool, before: bool) -> Interval | Choices:
+    """The range from low to high, without low if it begins ``after``, without high if it ends ``before``."""
     for bound in (low, high):
         if bound.is_extended_real is False:
             raise ParseError(f"{bound} is not real, so it cannot bound {name}")
-    left, right = text[0] == "(" or low == -oo, text[-1] == ")" or high == oo
+    if low == high and low.is_real and not (after or before):
+        return Choices(Symbol(name, real=True), (low,))
     try:
-        made = interval(Symbol(name, real=True), low, high)
+        made = interval(Symbol(name, real=True), low, high, open=True)
     except TypeError:
-        raise ParseError(f"{short(f'{name} in {text}')} has bounds that cannot be compared") from None
-    return replace(made, low_open=left, high_open=right)
+        raise ParseError(
+            f"{name} from {short(str(low))} to {short(str(high))} has bounds that cannot be compared"
+        ) from None
+    return replace(made, low_open=after or low == -oo, high_open=before or high == oo)
 
 
 def _choices(name: str, items: list[str], text: str) -> Choices | Integers:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import traceback
 from collections.abc import Iterable, Iterator, Mapping
+from difflib import get_close_matches
+from pathlib import Path
 from typing import Any
 
 from sympy import Expr, Integral, Sum, Symbol, preorder_traversal, sympify
@@ -12,6 +15,10 @@ from xsec_sym.proof.checker import FORMAT, Certificate, apply, opening
 from xsec_sym.proof.claim import Claim
 from xsec_sym.proof.regular import Refused
 from xsec_sym.proof.rules import Goal
+
+
+class BrokenProof(Exception):
+    """A script that cannot be run to its end, as against a move that does not follow: it names what there is not."""
 
 
 class Step:
@@ -83,6 +90,8 @@ class Step:
     # --- moves -------------------------------------------------------------------------------------
 
     def _move(self, name: str, said: str, **data: Any) -> Step:
+        if (lemma := data.get("proven", "")) and lemma not in self.claims:
+            raise BrokenProof(f"there is no claim called {lemma}{_meant(lemma, self.claims)}")
         goals = apply(self._open(), name, data, self.claims)
         self.moves.append([name, wire.encode(data)])
         self.told.append((self.depth, said))
@@ -127,7 +136,9 @@ class Step:
         ``by`` names a lemma that shows the sign of each term; a lemma |Y| = Y is read ``back``.
         """
         chosen = terms or (expression,)
-        said = f"the sign of {expression} is that of {' + '.join(f'({t})' for t in chosen)}"
+        said = f"the sign of {expression} is that of {' + '.join(f'({t})' for t in terms)}"
+        if not terms:
+            said = f"the sign of {expression}" + (f", by {by if isinstance(by, str) else by.id}" if by else " shows")
         data = {"expression": sympify(expression), "terms": [sympify(t) for t in chosen],
                 "inner": [sympify(i) for i in inside]}  # fmt: skip
         if by is not None:
@@ -305,11 +316,40 @@ class Step:
 
 
 def derive(claim: Claim, claims: Mapping[str, Claim]) -> tuple[Certificate, list[tuple[int, str]]]:
-    """Run a claim's proof script. Returns its certificate, and its steps in words with their depth."""
+    """Run a claim's proof script. Returns its certificate, and its steps in words with their depth.
+
+    Raises `Refused` where a move does not follow, and `BrokenProof` where the script fails otherwise.
+    """
     told: list[tuple[int, str]] = []
     if claim.prove is None:
         raise Refused(f"{claim.id} has no proof script")
     step = Step(opening(claim), claims, told)
-    claim.prove(step)
+    try:
+        claim.prove(step)
+    except Refused:
+        raise
+    except Exception as error:
+        raise BrokenProof(f"{_said(error)}{_line(error)}") from error
     step.finish()
     return {"format": FORMAT, "claim": claim.id, "moves": step.moves}, told
+
+
+def _said(error: Exception) -> str:
+    if isinstance(error, BrokenProof):
+        return str(error)
+    if isinstance(error, AttributeError) and isinstance(error.obj, Step) and error.name:
+        return f"there is no move called {error.name}{_meant(error.name, dir(Step))}"
+    return f"{type(error).__name__}: {error}"
+
+
+def _meant(word: str, known: Iterable[str]) -> str:
+    near = get_close_matches(word, [k for k in known if not k.startswith("_")], 1)
+    return f"; did you mean {near[0]}?" if near else ""
+
+
+def _line(error: Exception) -> str:
+    """Where in the script it happened: the last line that is not the engine's own."""
+    engine = Path(__file__).parent
+    frames = [f for f in traceback.extract_tb(error.__traceback__) if Path(f.filename).parent != engine]
+    written = [f for f in frames if Path(f.filename).is_file() and "site-packages" not in Path(f.filename).parts]
+    return f" ({Path(written[-1].filename).name}, line {written[-1].lineno})" if written else ""

@@ -31,7 +31,7 @@ from xsec_sym.proof.numeric import (
 )
 from xsec_sym.proof.regular import Refused
 from xsec_sym.proof.say import said
-from xsec_sym.proof.steps import derive
+from xsec_sym.proof.steps import BrokenProof, derive
 from xsec_sym.proof.verdict import Verdict
 from xsec_sym.proof.witnesses import distance_from_bulk, witnesses
 
@@ -78,7 +78,10 @@ def _verify(
         return measured.judged(claim, seed)
     if claim.accuracy is not None:
         return judged(claim, claims, recorded if count < WITNESSES else None)
-    certificate, steps, refusal = _proof(claim, claims, recorded)
+    try:
+        certificate, steps, refusal = _proof(claim, claims, recorded)
+    except BrokenProof as error:
+        return Verdict("inconclusive", note=f"the proof cannot be run: {error}")
     if is_infinite(claim.form):
         return _divergence(claim, certificate, steps, refusal, seed)
     proved, thorough = certificate is not None, count >= WITNESSES
@@ -237,7 +240,8 @@ def _refuted(claim: Claim, outcome: Outcome, certificate: Any, evidence: dict[st
 def _witness(outcome: Outcome) -> dict[str, Any]:
     trial = outcome.refuted_at
     assert trial is not None
-    return {"point": shown(trial.point), "left": trial.left.str(20), "right": outcome.refuting.str(20)}
+    digits = next((d for d in (20, 40, 80) if trial.left.str(d) != outcome.refuting.str(d)), 80)
+    return {"point": shown(trial.point), "left": trial.left.str(digits), "right": outcome.refuting.str(digits)}
 
 
 def _count(moves: list[Any]) -> int:

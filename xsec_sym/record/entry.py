@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from xsec_sym.proof.verdict import Verdict
 
 SIDES = ("left", "printed", "corrected")
+SIGNS = {"=": "=", "≈": r"\approx"}
 # What `xsec verify --json` tells of an entry; the record keeps the encoded expressions and the steps as well.
 PUBLIC = ("id", "source", "section", "label", "title", "kind", "verdict", "left", "printed", "corrected", "edit",
           "domain", "reading", "digits", "witness", "evidence", "mutants", "seconds", "parts", "note")  # fmt: skip
@@ -148,12 +149,22 @@ class Entry:
 
     # --- display -----------------------------------------------------------------------------------
 
-    def latex(self, side: str = "printed") -> str:
-        r"""The whole statement with its printed, or its corrected, right side: what is near is set with \approx."""
-        from xsec_sym.record import relation
+    def relation(self, side: str = "printed") -> str:
+        """What stands between the two sides: "=", "≈" where they are only near, "≥" for an inequality.
 
-        left, right = relation.parts(self, side)
-        return left if right is None else f"{left} {relation.LATEX[relation.sign(self)]} {right}"
+        An inequality X >= 0 is kept as |X| = X, and told as "X ≥ 0".
+        """
+        if self.kind in ("approximation", "accuracy"):
+            return "≈"
+        right = getattr(self, side)
+        return "≥" if right is not None and self.left == rf"\left|{{{right}}}\right|" else "="
+
+    def latex(self, side: str = "printed") -> str:
+        """The whole equation with its printed, or its corrected, right side."""
+        right, relation = getattr(self, side), self.relation(side)
+        if right is None:
+            return self.left
+        return rf"{right} \geq 0" if relation == "≥" else rf"{self.left} {SIGNS[relation]} {right}"
 
     def bibtex(self) -> str:
         """A BibTeX entry by which this verdict can be cited; `xsec_sym.record.sources.bibtex` has those of the sources.
@@ -166,23 +177,38 @@ class Entry:
 
         return cite(self)
 
-    def heading(self, name: str) -> str:
-        """What a side is called, and how near it is: it corrects something only where something is printed."""
-        from xsec_sym.record.relation import nearness
+    def nearness(self) -> str:
+        """How near the sides are to each other, where that was stated; empty for an equation."""
+        within = self.evidence.get("within", "") if self.relation() == "≈" else ""
+        if not within[:1].isdigit():
+            return within
+        return f"within {within}" + (" of the left side" if self.evidence.get("relative") else "")
 
-        called = "statement" if name == "corrected" and self.printed is None else name
-        return ", ".join(filter(None, [called, nearness(self, name)]))
+    def heading(self, name: str) -> str:
+        """What a side is called: it corrects something only where something is printed."""
+        if self.printed is not None:
+            return name
+        return "statement" if name == "corrected" else "quantity"
+
+    @property
+    def wordless(self) -> bool:
+        """Whether all is said in words: there is no formula to show."""
+        return self.left in ("", "0") and self.printed is None and self.corrected is None
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex('printed' if self.corrected is None else 'corrected')}$"
 
     def _repr_html_(self) -> str:
-        rows = [
-            (self.heading(name), f"$\\displaystyle {escape(self.latex(name))}$")
-            for name in ("printed", "corrected")
-            if getattr(self, name) is not None
+        rows = [("printed", f"$\\displaystyle {escape(self.latex())}$")] if self.printed is not None else []
+        if self.corrected is not None:
+            rows.append((self.heading("corrected"), f"$\\displaystyle {escape(self.latex('corrected'))}$"))
+        said = [
+            ("edit", self.edit),
+            ("near", self.nearness()),
+            ("where", self.domain),
+            ("reading", self.reading),
+            ("note", self.note),
         ]
-        said = [("edit", self.edit), ("where", self.domain), ("reading", self.reading), ("note", self.note)]
         if self.verdict == "confirmed" and self.digits:
             said.append(("digits", str(self.digits)))
         if self.witness:

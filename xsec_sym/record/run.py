@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections import ChainMap, deque
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -49,67 +49,6 @@ class Result:
 Execute = Callable[[list[Job]], Iterator[tuple[str, Verdict]]]
 
 
-class Run:
-    """The verification of every chosen claim, and of the parts of chosen wholes, which may end before all is done."""
-
-    def __init__(self, claims: Mapping[str, Claim], chosen: Iterable[str], ledger: Ledger, settings: Settings) -> None:
-        self.claims, self.ledger, self.settings = claims, ledger, settings
-        self.wanted = with_parts(claims, chosen)
-        self.earned: dict[str, Verdict] = {}
-        self._keys = Keys(claims)
-        self._unchanged = {
-            n for n in self.wanted if n in ledger and ledger[n].key == self._keys.of(n, ledger.certificate(n))
-        }
-        self.jobs = [self._job(name) for name in self.wanted if claims[name].kind != "whole"]
-
-    def _job(self, name: str) -> Job:
-        ledger = self.ledger
-        # what was not settled with all witnesses must not come out better with a few
-        if name in self._unchanged and not self.settings.fresh and ledger.certificate(name) and ledger[name].settled:
-            return Job(name, REPLAYED, ledger.certificate(name), ledger[name].seconds)
-        # the longest are started first, and of what is new nothing is known
-        return Job(name, ANEW, None, ledger[name].seconds if name in ledger else SECONDS)
-
-    def go(
-        self,
-        execute: Execute | None = None,
-        tick: Callable[[str], None] = lambda name: None,
-        now: Callable[[list[str]], None] = lambda names: None,
-    ) -> None:
-        """Carry out all jobs.
-
-        ``tick`` is called with an id whenever a verdict comes in, ``now`` with the ids in work whenever these change,
-        if they are on this machine.
-        """
-        for name, verdict in (execute or local(self.claims, self.settings, now))(self.jobs):
-            self.earned[name] = verdict
-            tick(name)
-        for name in self.wanted:
-            if self.claims[name].kind == "whole":
-                tick(name)
-
-    def results(self) -> list[Result]:
-        """A result for every claim whose verdict has come in, and for the wholes of these, in their order."""
-        claims, ledger, earned = self.claims, self.ledger, dict(self.earned)
-        given = {job.id for job in self.jobs if job.certificate}
-        # a replay need not hand back the certificate that it was given
-        for name in given & set(earned):
-            if earned[name].certificate is None and earned[name].verdict == ledger[name].verdict:
-                earned[name] = replace(earned[name], certificate=ledger.certificate(name))
-        earned = rest_on_lemmas(earned, ledger, lambda name: _current(name, claims, ledger, self._keys))
-        for name in (n for n in self.wanted if claims[n].kind == "whole"):
-            if all(p in self.earned or claims[p].kind == "whole" for p in with_parts(claims, [name])):
-                earned[name] = whole(name, claims, earned)
-        found = []
-        for name in (n for n in self.wanted if n in earned):
-            verdict = earned[name]
-            like = ledger[name] if name in self._unchanged else None
-            key = self._keys.of(name, verdict.certificate)
-            entry = Entry.of(claims[name], verdict, key=key, like=like)
-            found.append(Result(entry, verdict.certificate, replayed=name in given))
-        return found
-
-
 def verify_all(
     claims: Mapping[str, Claim],
     chosen: Iterable[str],
@@ -117,13 +56,48 @@ def verify_all(
     settings: Settings,
     *,
     execute: Execute | None = None,
-    tick: Callable[[str], None] = lambda name: None,
+    tick: Callable[[str, Verdict], None] = lambda name, verdict: None,
     now: Callable[[list[str]], None] = lambda names: None,
 ) -> list[Result]:
-    """A result for every chosen claim, and for the parts of chosen wholes, in the order of the claims: see `Run`."""
-    run = Run(claims, chosen, ledger, settings)
-    run.go(execute, tick, now)
-    return run.results()
+    """A result for every chosen claim, and for the parts of chosen wholes, in the order of the claims.
+
+    ``tick`` is called with an id and its verdict whenever one comes in, ``now`` with the ids in work whenever these
+    change, if they are on this machine.
+    """
+    wanted = with_parts(claims, chosen)
+    keys = Keys(claims)
+    unchanged = {n for n in wanted if n in ledger and ledger[n].key == keys.of(n, ledger.certificate(n))}
+    jobs = []
+    for name in wanted:
+        if claims[name].kind == "whole":
+            continue
+        # what was not settled with all witnesses must not come out better with a few
+        if name in unchanged and not settings.fresh and ledger.certificate(name) and ledger[name].settled:
+            jobs.append(Job(name, REPLAYED, ledger.certificate(name), ledger[name].seconds))
+        else:
+            # the longest are started first, and of what is new nothing is known
+            jobs.append(Job(name, ANEW, None, ledger[name].seconds if name in ledger else SECONDS))
+    earned: dict[str, Verdict] = {}
+    for name, verdict in (execute or local(claims, settings, now))(jobs):
+        earned[name] = verdict
+        tick(name, verdict)
+    # a replay need not hand back the certificate that it was given
+    for job in jobs:
+        if job.certificate and earned[job.id].certificate is None and earned[job.id].verdict == ledger[job.id].verdict:
+            earned[job.id] = replace(earned[job.id], certificate=job.certificate)
+    earned = rest_on_lemmas(earned, ledger, lambda name: _current(name, claims, ledger, keys))
+    for name in wanted:
+        if claims[name].kind == "whole":
+            earned[name] = whole(name, claims, earned)
+            tick(name, earned[name])
+    results, given = [], {job.id for job in jobs if job.certificate}
+    for name in wanted:
+        verdict = earned[name]
+        like = ledger[name] if name in unchanged else None
+        key = keys.of(name, verdict.certificate)
+        entry = Entry.of(claims[name], verdict, key=key, like=like)
+        results.append(Result(entry, verdict.certificate, replayed=name in given))
+    return results
 
 
 def with_parts(claims: Mapping[str, Claim], chosen: Iterable[str]) -> list[str]:
@@ -300,19 +274,41 @@ def differences(
     return found + [f"{name}: in the record, and no derivation claims it" for name in gone]
 
 
-def to_record(results: Iterable[Result], ledger: Ledger) -> tuple[list[Entry], dict[str, Any]]:
+def to_record(results: Sequence[Result], ledger: Ledger) -> tuple[list[Entry], dict[str, Any]]:
     """What `Ledger.write` should be given.
 
     A replay that agrees leaves the fuller evidence of the record alone, and no time is recorded for its own sake.
     """
-    entries, certificates = [], {}
-    for result in results:
+    kept: dict[str, Entry] = dict(ledger)
+    changed, certificates = set(), {}
+    # a whole tells of its parts what stays recorded of them
+    ordered = sorted(results, key=lambda result: bool(result.entry.parts))
+    known = ChainMap(kept, {r.entry.id: r.entry for r in results if r.entry.parts})
+    for result in ordered:
         earlier = ledger.get(result.entry.id)
+        entry = _summed(result.entry, known)
         if earlier is not None:
-            agrees = result.replayed and earlier.verdict == result.entry.verdict
-            same = replace(result.entry, seconds=earlier.seconds) == earlier
+            agrees = result.replayed and earlier.verdict == entry.verdict
+            same = replace(entry, seconds=earlier.seconds) == earlier
             if agrees or (same and result.certificate == ledger.certificate(earlier.id)):
                 continue
-        entries.append(result.entry)
-        certificates[result.entry.id] = result.certificate
-    return entries, certificates
+        kept[entry.id] = entry
+        changed.add(entry.id)
+        certificates[entry.id] = result.certificate
+    return [kept[r.entry.id] for r in results if r.entry.id in changed], certificates
+
+
+def _summed(entry: Entry, known: Mapping[str, Entry]) -> Entry:
+    """A whole with the counts of its parts, whole ones among them taken apart; anything else as it is."""
+    if not entry.parts:
+        return entry
+    leaves, waiting, seen = [], list(entry.parts), {entry.id}
+    while waiting:
+        part = known.get(waiting.pop())
+        if part is not None and part.id not in seen:
+            seen.add(part.id)
+            waiting += part.parts
+            leaves += [] if part.parts else [part]
+    digits = min((p.digits for p in leaves if p.digits), default=None)
+    seconds = round(sum(p.seconds for p in leaves), 2)
+    return replace(entry, mutants=sum(p.mutants for p in leaves), digits=digits, seconds=seconds)

@@ -8,7 +8,6 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from xsec_sym.record import relation
 from xsec_sym.record.entry import Entry
 
 if TYPE_CHECKING:
@@ -53,10 +52,11 @@ def told(
     blocks += [
         _formula(entry, name, form, wide)
         for name in ("printed", "corrected")
-        if getattr(entry, name) is not None or (name == "printed" and entry.left and entry.corrected is None)
+        if getattr(entry, name) is not None or (name == "printed" and not entry.wordless and entry.corrected is None)
     ]
     facts = [
         ("change", entry.edit),
+        ("near", entry.nearness()),
         ("where", entry.domain),
         ("reading", entry.reading),
         ("note", entry.note),
@@ -98,46 +98,42 @@ def _formula(entry: Entry, name: str, form: str, wide: int) -> str:
     left = right = None
     if form != "latex":
         with contextlib.suppress(ValueError, KeyError, TypeError):
-            left, right = relation.sides(entry, name)
+            left, right = entry.side("left"), entry.side(name)
+    relation = entry.relation(name)
     if left is None or (right is None and getattr(entry, name) is not None):
         text = entry.latex(name)
     else:
+        if relation == "≥":
+            from sympy import S
+
+            left, right = right, S.Zero
         sides = [left] if right is None else [left, right]
-        sign = relation.sign(entry)
-        plain = ">=" if sign == relation.LEAST else sign
-        text = (form == "pretty" and _typeset(sides, sign, wide)) or f" {plain} ".join(map(_in_line, sides))
+        text = (form == "pretty" and _typeset(sides, relation, wide)) or f" {relation} ".join(map(str, sides))
         if form == "pretty" and "\n" not in text:
             # a formula wider than the page is easier to read in one line than torn into stacks
             text = textwrap.fill(text, wide, break_long_words=False, break_on_hyphens=False)
     return f"{entry.heading(name)}\n{textwrap.indent(text, ' ' * INDENT)}"
 
 
-def _in_line(side: Expr) -> str:
-    # the magnitude that is left as it is reads as any other
-    return str(side).replace("Magnitude(", "Abs(")
-
-
-def _typeset(sides: list[Expr], sign: str, wide: int) -> str:
+def _typeset(sides: list[Expr], relation: str, wide: int) -> str:
     """Side by side where that fits, one below the other where not; nothing if even so it is too wide."""
-    from sympy.printing.pretty.pretty import PrettyPrinter, pretty_use_unicode
+    from sympy import pretty
 
-    before = pretty_use_unicode(True)
-    try:
-        # pictures know on which of their lines a sign has to stand
-        pictures = [PrettyPrinter({"num_columns": 10_000})._print(side) for side in sides]
-    finally:
-        pretty_use_unicode(before)
-    beside = str(_beside(pictures[0], pictures[1], sign)) if len(pictures) == 2 else str(pictures[0])
-    for text in (beside, f"\n{sign}\n".join(map(str, pictures))):
+    shown = [pretty(side, use_unicode=True, num_columns=10_000) for side in sides]
+    for text in (_beside(shown[0], shown[1], relation) if len(shown) == 2 else shown[0], f"\n{relation}\n".join(shown)):
         if max(map(len, text.splitlines())) <= wide:
             return text
     return ""
 
 
-def _beside(left: Any, right: Any, sign: str) -> Any:
+def _beside(left: str, right: str, relation: str) -> str:
     from sympy.printing.pretty.stringpict import stringPict
 
-    return stringPict(*left.right(f" {sign} ", right))
+    def picture(text: str) -> Any:
+        lines = text.splitlines()
+        return stringPict(text, len(lines) // 2)
+
+    return str(stringPict(*picture(left).right(f" {relation} ", picture(right))))
 
 
 def _field(name: str, text: str) -> str:
@@ -211,10 +207,10 @@ def rows(entries: Iterable[Entry]) -> list[tuple[str, str, str, str, str]]:
 
 
 def lines(entries: Iterable[Entry]) -> list[str]:
-    """The table for a pipe: one line an entry below the names of the columns, whatever the width of a terminal."""
+    """The table for a pipe: one line an entry, whatever the width of a terminal."""
     found = [COLUMNS, *rows(entries)]
     wide = max(len(r[0]) for r in found)
-    return [f"{r[0]:<{wide}}  {r[1]:<12}  {r[2]:>6}  {r[3]:>7}  {r[4]:>8}".rstrip() for r in found]
+    return [f"{r[0]:<{wide}}  {r[1]:<12}  {r[2]:>6}  {r[3]:>7}  {r[4]:>7}".rstrip() for r in found]
 
 
 def table(entries: Iterable[Entry]) -> Table:

@@ -30,7 +30,7 @@ class Code:
 
 
 def fingerprint(entry: Entry, record: Record) -> str:
-    """Changes with the form that holds, its domain, and those of the parts.
+    """Changes with the form that holds, its domain, what the docstring says of them, and those of the parts.
 
     >>> from xsec_sym.record.store import Ledger
     >>> record = Ledger()
@@ -39,7 +39,7 @@ def fingerprint(entry: Entry, record: Record) -> str:
     """
     side = "printed" if entry.corrected is None else "corrected"
     parts = [fingerprint(record[p], record) for p in entry.parts if p in record]
-    told = [entry.id, entry.verdict, entry.encoded.get(side), entry.variables, parts]
+    told = [entry.id, entry.verdict, entry.encoded.get(side), entry.variables, entry.title, entry.reading, parts]
     return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()[:16]
 
 

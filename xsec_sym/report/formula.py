@@ -63,7 +63,7 @@ def set_(latex: str, display: bool = True) -> str:
     return written(tree(latex), display)
 
 
-def equation(left: Node | None, right: Node | None, between: str = "=") -> str:
+def equation(left: Node | None, right: Node | None, relation: str = "=") -> str:
     """Both sides as texts, one after the other: a narrow page puts them on two lines.
 
     >>> equation(tree("a"), tree("b"))
@@ -71,7 +71,7 @@ def equation(left: Node | None, right: Node | None, between: str = "=") -> str:
     """
     if left is not None and right is not None:
         sign = Node("mo", {"form": "infix"})
-        sign.text = between
+        sign.text = relation
         right.insert(0, sign)
     return "".join(written(side) for side in (left, right) if side is not None)
 

@@ -9,7 +9,6 @@ from typing import Any
 
 from markupsafe import Markup
 
-from xsec_sym.record import relation
 from xsec_sym.record.entry import Entry
 from xsec_sym.record.show import MEANING, MEASURED
 from xsec_sym.report import words
@@ -35,6 +34,23 @@ ONE = {"claims that hold": "claim that holds", "claims that fail": "claim that f
 ERRORS = ("error of the print", "error of the form at points", "largest error found", "within")
 # What is told elsewhere on the page.
 SILENT = ("in words", "lemmas", "parts", "moves")
+# The names of the record in words that say what was done, and more of it for whoever points at them.
+SAID = {
+    "proof": ("exact proof", "whether the checker can replay moves that lead to exact zero"),
+    "enclosure": ("ball arithmetic", "whether both sides were enclosed in balls, that is with bounds of every error"),
+    "witnesses": ("points tried", "where the ball of the difference contains 0 and is small enough"),
+    "digits tried": ("digits asked for", "of the difference, at each of the points"),
+    "mpmath": ("points by mpmath as well", "where a second library agrees by another route"),
+    "mutants equal to the form": ("altered forms that are the same", "they are the same function, and so no test"),
+    "altered forms rejected": (
+        "altered forms rejected", "by the same check: signs flipped, factors of 2, other exponents, terms dropped",
+    ),
+    "altered forms that are as near": ("altered forms as near", "which this accuracy cannot tell from the form"),
+}  # fmt: skip
+# SymPy's sign for the function that is 1 for positive arguments and 0 for negative ones.
+STEP = r"\theta\left("
+UNIT_STEP = Markup("<i>θ</i>(…) is the unit step: 1 for positive arguments, 0 for negative ones")
+ALIKE = "built separately, and written by SymPy as the same expression"
 
 
 @dataclass(frozen=True)
@@ -56,9 +72,9 @@ class Item:
         return place(self.entry)
 
     @property
-    def title(self) -> str:
+    def title(self) -> Markup:
         """Cells of the table are named by their place alone."""
-        return "" if self.entry.label.startswith("T1.") else self.entry.title
+        return Markup() if self.entry.label.startswith("T1.") else words.titled(self.entry.title)
 
     @property
     def section(self) -> str:
@@ -84,28 +100,29 @@ class Item:
     def formulas(self) -> list[tuple[str, str, Markup]]:
         """A heading, a class and the formula, for each form; both forms of a misprint with their difference."""
         e = self.entry
-        if not e.left and e.printed is None and e.corrected is None:
+        if e.wordless:
             return []
         if e.printed is not None and e.corrected is not None:
             printed, corrected = tree(e.printed), tree(e.corrected)
             mark(printed, corrected)
             return [
-                (self._near("in print", "printed"), "print", self._equation(printed)),
-                (self._near("what holds", "corrected"), "holds", self._equation(corrected)),
+                ("in print", "print", self._equation(printed, "printed")),
+                ("what holds", "holds", self._equation(corrected, "corrected")),
             ]
-        name = "printed" if e.corrected is None else "corrected"
-        left, right = relation.parts(e, name)
+        right = e.printed if e.corrected is None else e.corrected
+        if e.verdict == "definition" and self._alike:
+            right = None
         if e.printed is None and e.label.startswith("T1.") and e.corrected is not None:
-            return [("blank in print; what holds", "holds", self._equation(tree(e.corrected)))]
+            return [("blank in print; what holds", "holds", self._equation(tree(e.corrected), "corrected"))]
+        side = "printed" if e.corrected is None else "corrected"
         heading, kind = ("as stated", "print") if self.fails else ("", "plain")
-        return [(self._near(heading, name), kind, self._equation(None if right is None else tree(right), left))]
+        return [(heading, kind, self._equation(None if right is None else tree(right), side))]
 
-    def _near(self, heading: str, name: str) -> str:
-        return ", ".join(filter(None, [heading, relation.nearness(self.entry, name)]))
-
-    def _equation(self, right: Any, left: str | None = None) -> Markup:
-        left = self.entry.left if left is None else left
-        return Markup(equation(tree(left) if left else None, right, relation.sign(self.entry)))
+    def _equation(self, right: Any, side: str) -> Markup:
+        relation = self.entry.relation(side)
+        if relation == "≥":
+            return Markup(equation(right, tree("0"), relation))
+        return Markup(equation(tree(self.entry.left) if self.entry.left else None, right, relation))
 
     # --- facts ------------------------------------------------------------------------------------------
 
@@ -117,11 +134,26 @@ class Item:
         e = self.entry
         found = [
             ("change", self.linked(e.edit)),
+            ("near", Markup.escape(e.nearness())),
             ("where", words.symbols(e.domain)),
             ("reading", self.linked(e.reading)),
             ("note", self.linked(e.note if e.note != e.reading else "")),
+            (
+                "sign",
+                Markup("<i>θ</i>(…) is the unit step: 1 for positive arguments, 0 for negative ones" * self._steps),
+            ),
+            ("sides", Markup.escape(ALIKE * (self._alike and e.verdict != "definition"))),
         ]
         return [(name, text) for name, text in found if text]
+
+    @property
+    def _steps(self) -> bool:
+        return any(STEP in (text or "") for text in (self.entry.left, self.entry.printed, self.entry.corrected))
+
+    @property
+    def _alike(self) -> bool:
+        right = self.entry.printed if self.entry.corrected is None else self.entry.corrected
+        return bool(self.entry.left) and self.entry.left == right
 
     @cached_property
     def witness(self) -> list[tuple[str, Markup]]:
@@ -145,7 +177,7 @@ class Item:
     def evidence(self) -> list[tuple[str, Markup]]:
         e = self.entry
         found = [
-            (name, self.linked(words.said(value)))
+            (SAID.get(name, (name,))[0], self.linked(words.said(value)))
             for name, value in e.evidence.items()
             if value not in ([], {}, None) and name not in SILENT
         ]
@@ -208,6 +240,11 @@ def items(record: Any, codes: Mapping[str, Code]) -> dict[str, Item]:
         e.id: Item(e, record, tuple(users.get(e.id, ())), codes.get(e.id), record.certificate(e.id) is not None)
         for e in record.values()
     }
+
+
+def helped(name: str) -> str:
+    """More of a fact, for whoever points at its name."""
+    return next((more for said, more in SAID.values() if said == name), words.TERMS.get(name, ""))
 
 
 def counted(name: str, count: int) -> str:

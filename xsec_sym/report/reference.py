@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import inspect
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from importlib import import_module
 from importlib.util import find_spec
@@ -32,6 +32,8 @@ OPTIONAL = ("xsec_sym.kernels.compiled",)
 # Not a function, a class or an object that a reader calls.
 INNER = ("xsec_sym.proof.REGISTRY",)
 CODE = re.compile(r"`([^`]+)`")
+# A line of the index that a module's docstring holds: a name with its arguments, and what it is.
+LISTED = re.compile(r"^    (\w+)\(.*?\): (.+)$")
 
 
 @dataclass(frozen=True)
@@ -60,7 +62,11 @@ class Name:
 
     @property
     def paragraphs(self) -> list[tuple[str, Markup]]:
-        return list(paragraphs(self.doc))
+        return list(paragraphs(self.doc, re.findall(r"\w+", self.signature)))
+
+    @property
+    def link(self) -> str:
+        return f"api:{self.path}"
 
 
 @dataclass(frozen=True)
@@ -71,7 +77,33 @@ class Module:
 
     @property
     def paragraphs(self) -> list[tuple[str, Markup]]:
-        return list(paragraphs(self.doc))
+        return [(kind, text) for part in _parts(self.doc) if not _listed(part) for kind, text in paragraphs(part)]
+
+    @property
+    def index(self) -> list[tuple[str, list[tuple[Name, str]]]]:
+        """Headings with their names and what these are: as the docstring groups them, or all under none.
+
+        >>> next(m for m in modules() if m.path == "xsec_sym.kernels").index[1][0]
+        'Distributions of normals at the cosine u'
+        """
+        names = {name.name: name for name in self.names}
+        groups = [
+            (part.partition(":\n")[0], [(names[found[1]], found[2]) for found in _listed(part) if found[1] in names])
+            for part in _parts(self.doc)
+            if _listed(part)
+        ]
+        return groups or [("", [(name, "") for name in self.names])]
+
+
+def _parts(doc: str) -> list[str]:
+    return re.split(r"\n\s*\n", inspect.cleandoc(doc)) if doc.strip() else []
+
+
+def _listed(part: str) -> list[re.Match[str]]:
+    """The lines of a part of an index, empty for any other part."""
+    head, *lines = part.splitlines()
+    found = [LISTED.match(line) for line in lines]
+    return [f for f in found if f] if head.endswith(":") and all(found) else []
 
 
 def modules() -> list[Module]:
@@ -102,7 +134,8 @@ def _names(path: str) -> Iterator[Name]:
 def _name(path: str, found: Any) -> Name:
     doc = inspect.getdoc(found) or ""
     if inspect.ismodule(found):
-        return Name(path, "module", "", doc)
+        # its index stands where the module itself is told of
+        return Name(path, "module", "", "\n\n".join(part for part in _parts(doc) if not _listed(part)))
     if not inspect.isclass(found):
         if not callable(found):
             return Name(path, "object", "", inspect.getdoc(type(found)) or "", tuple(_inner(path, type(found))))
@@ -167,13 +200,18 @@ def _tree(path: str) -> ast.Module:
     return ast.parse(Path(spec.origin).read_text(encoding="utf-8"))
 
 
-def paragraphs(doc: str) -> Iterator[tuple[str, Markup]]:
+def paragraphs(doc: str, arguments: Iterable[str] = ()) -> Iterator[tuple[str, Markup]]:
     """A docstring as paragraphs: "text", whose words in backticks are code, "example", and "table" as it is typed.
+
+    Where an argument is explained, as in "alpha: roughness", its name stands out.
 
     >>> [(kind, str(text)) for kind, text in paragraphs("Doubles `x`.\\n\\n>>> 2 * 2\\n4")]
     [('text', 'Doubles <code>x</code>.'), ('example', '&gt;&gt;&gt; 2 * 2\\n4')]
+    >>> [str(text) for kind, text in paragraphs("u, v: cosines. b: at most 1.", ["u", "v", "b"])]
+    ['<b>u, v</b>: cosines. <b>b</b>: at most 1.']
     """
-    for part in re.split(r"\n\s*\n", inspect.cleandoc(doc)) if doc.strip() else []:
+    known = "|".join(sorted(arguments, key=len, reverse=True))
+    for part in _parts(doc):
         lines = part.splitlines()
         if part.lstrip().startswith(">>>"):
             yield "example", escape(part)
@@ -181,7 +219,10 @@ def paragraphs(doc: str) -> Iterator[tuple[str, Markup]]:
             yield "table", escape(part)
         else:
             said = str(escape(" ".join(line.strip() for line in lines)))
-            yield "text", Markup(CODE.sub(r"<code>\1</code>", said.replace("``", "`")))
+            said = CODE.sub(r"<code>\1</code>", said.replace("``", "`"))
+            if known:
+                said = re.sub(rf"(^|\. )((?:{known})(?:(?:, | and )(?:{known}))*): ", r"\1<b>\2</b>: ", said)
+            yield "text", Markup(said)
 
 
 __all__ = ["Module", "Name", "modules", "paragraphs"]

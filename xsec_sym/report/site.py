@@ -21,7 +21,7 @@ from xsec_sym.record.show import MEANING
 from xsec_sym.report import reference, words
 from xsec_sym.report.code import codes
 from xsec_sym.report.formula import set_
-from xsec_sym.report.items import GROUPS, Item, counted, items, misprints
+from xsec_sym.report.items import GROUPS, Item, counted, helped, items, misprints
 from xsec_sym.report.papers import COLUMNS, Paper, in_order, papers
 from xsec_sym.report.table1 import TABLE, rows
 
@@ -86,9 +86,10 @@ def pages(record: Any, folder: Path, tick: Tick = lambda said: None) -> Iterator
         loader=PackageLoader("xsec_sym.report"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
         lstrip_blocks=True,
     )  # fmt: skip
+    inside.filters["with_links"] = lambda text: words.to_entries(text, record)
     inside.globals.update(
         papers=sources, items=found, href=words.href, version=__version__, table=bool(table), charts=bool(drawn),
-        counted=counted,
+        counted=counted, helped=helped, meanings=MEANING, groups=GROUPS, terms=words.TERMS,
         math=lambda latex: Markup(set_(latex, display=False)), words={g: " ".join(w) for g, w in GROUPS.items()},
     )  # fmt: skip
 
@@ -100,7 +101,8 @@ def pages(record: Any, folder: Path, tick: Tick = lambda said: None) -> Iterator
         yield from _source(paper, record, found, page)
     if table:
         columns = [Markup(set_(latex, display=False)) for latex in COLUMNS.values()]
-        yield page("table1.html", "table1.html", rows=table, columns=columns)
+        names = [Markup(set_(latex.partition(" =")[0], display=False)) for latex in COLUMNS.values()]
+        yield page("table1.html", "table1.html", rows=table, columns=columns, names=names)
     if drawn:
         yield page("charts.html", "charts.html", drawn=drawn)
     yield page("index.html", "index.html", **_index(sources, record))
@@ -120,7 +122,7 @@ def _source(paper: Paper, record: Any, found: dict[str, Item], page: Any) -> Ite
     sections = [(name, [found[e.id] for e in part]) for name, part in in_order(entries)]
     wrong = [item for _, part in sections for item in part if item.entry.verdict == "misprint"]
     yield page("source.html", paper.page, paper=paper, sections=sections, total=len(entries), counts=counts(entries),
-               misprints=len(wrong))  # fmt: skip
+               misprints=len(wrong), shown=[v for v in MEANING if any(e.verdict == v for e in entries)])  # fmt: skip
     if wrong:
         yield page("errata.html", paper.errata, paper=paper, found=wrong)
 
@@ -145,7 +147,7 @@ def _index(sources: list[Paper], record: Any) -> dict[str, Any]:
             {"paper": paper, "total": len(entries), "counts": counts(entries), "misprints": len(misprints(entries))}
         )
     totals = [(name, count) for name, _, count, _ in counts(list(record.values()))]
-    return {"cards": cards, "total": len(record), "totals": totals, "meanings": list(MEANING.items())}
+    return {"cards": cards, "total": len(record), "totals": totals}
 
 
 def _search(found: dict[str, Item]) -> str:

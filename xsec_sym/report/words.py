@@ -42,6 +42,33 @@ def linked(text: str, known: Container[str]) -> Markup:
     return said + prose(text[end:])
 
 
+# What the words beside a formula mean, in the order in which an entry has them.
+TERMS = {
+    "in print": "the equation as the text of the paper has it; what differs from what holds is red",
+    "what holds": "the corrected form, proved or confirmed; what the print lacks is green",
+    "change": "the smallest edit of the print that mends it",
+    "where": "the values for which it is claimed, and was checked",
+    "reading": "how the text is understood where it leaves something open: normalisations, conventions, what is meant",
+    "fails at": "a point where the two sides differ, each with the radius of the ball that encloses it",
+    "derivation": "the moves of the proof, in order; the checker replays each of them",
+    "evidence": "what else was tried, and with what result",
+    "uses": "the entries on which its proof rests",
+}
+
+
+def to_entries(text: str, known: Container[str]) -> Markup:
+    """A text of HTML in which ids that stand as code lead to their entries.
+
+    >>> print(to_entries("by <code>deon2016:25</code> or <code>a:b</code>", {"deon2016:25"}))
+    by <a href="deon2016.html#25"><code>deon2016:25</code></a> or <code>a:b</code>
+    """
+
+    def leading(found: re.Match[str]) -> str:
+        return f'<a href="{href(found[1])}">{found[0]}</a>' if found[1] in known else found[0]
+
+    return Markup(re.sub(r"<code>([a-z_0-9]+:[\w.-]+)</code>", leading, text))
+
+
 # A word that only a formula has, one that may stand in it, and a sign between two.
 _SURE = re.compile(r"\S*(?:[\^*]|\w_\w|\w\(|\|\w|\de[-+]?\d)\S*")
 _MAYBE = re.compile(r"[(\[|-]*(?:\d[\w.]*|[A-Za-z]'?|infinity|" + "|".join(GREEK) + r")[)\]|,;:.]*")
@@ -125,6 +152,22 @@ def symbols(text: str) -> Markup:
     for found in re.finditer(r"[A-Za-z]+_[+-]|[A-Za-z]\w*|\*\*(\d+)|<=|>=|!=|[-*|&]", text):
         power = Markup("<sup>{}</sup>").format(found[1]) if found[1] else _symbol(found[0])
         said += escape(text[end : found.start()]) + power
+        end = found.end()
+    return said + escape(text[end:])
+
+
+def titled(text: str) -> Markup:
+    """A title, with letters for the names of Greek ones and indices below.
+
+    >>> print(titled("the area is Lambda cos(theta_i), with D_+ and alpha^2"))
+    the area is <i>Λ</i> cos(<i>θ<sub>i</sub></i>), with <i>D<sub>+</sub></i> and <i>α</i><sup>2</sup>
+    """
+    greek = "|".join(name for name in GREEK if name not in ("oo", "ell"))
+    said = Markup("")
+    end = 0
+    for found in re.finditer(rf"\b(?:(?:{greek})(?:_(?:\w+\b|[+-]))?|[A-Za-z]_(?:\w+\b|[+-]))(?!\w)|\^(\d+)", text):
+        letter = Markup("<sup>{}</sup>").format(found[1]) if found[1] else _symbol(found[0])
+        said += escape(text[end : found.start()]) + letter
         end = found.end()
     return said + escape(text[end:])
 

@@ -28,7 +28,7 @@ STYLE: Any = {
     "figure.constrained_layout.use": False,
 }
 # Of the foot, in an inch of width: a viewer's own letters may be wider than those it was planned with.
-LETTERS = 21
+LETTERS = 18
 FLOOR, CEILING = 1e-17, 10.0
 ERRORS = {"usual_rel": "largest relative error found", "usual_abs": "largest absolute error found"}
 
@@ -118,7 +118,7 @@ def figure(data: Mapping[str, Any]) -> Figure:
         made.suptitle(f"{data['quantity']}: {data['title']}")
         made.legend(handles, list(looks), loc="center right", frameon=False, fontsize=7)
         foot = fill(_foot(data), int(LETTERS * made.get_figwidth()))
-        made.text(0.01, 0.005, foot, fontsize=5.5, color="0.35", linespacing=1.3)
+        made.text(0.01, 0.005, foot, fontsize=6.5, color="0.35", linespacing=1.3)
         _set_out(made, foot.count("\n") + 1)
     return made
 
@@ -127,7 +127,7 @@ def _set_out(made: Figure, lines: int) -> None:
     """Margins in inches, for they are the same in every chart: to have them measured takes as long as to draw."""
     wide, high = made.get_size_inches()
     made.subplots_adjust(
-        left=0.7 / wide, right=1 - 2.0 / wide, bottom=(0.55 + 0.1 * lines) / high, top=1 - 0.58 / high,
+        left=0.7 / wide, right=1 - 2.0 / wide, bottom=(0.55 + 0.12 * lines) / high, top=1 - 0.58 / high,
         wspace=0.16 / 4.2, hspace=0.18 / 2.5,
     )  # fmt: skip
 
@@ -193,16 +193,8 @@ def _where(data: Mapping[str, Any]) -> str:
     return f"; errors for {', '.join(told)}" if told else " in the domain"
 
 
-LEGEND = (
-    "arrays: every argument is an array; constant: those that a scene sets once are single numbers.",
-    "ns: nanoseconds a value. max rel, max abs: the largest errors found, at troublesome places too; p99 rel: 99 of",
-    "100 values all over the domain are as near. failures: NaN or infinity where it should not be. In double precision",
-    "unless float32 is said.",
-)
-
-
 def table(data: Mapping[str, Any]) -> list[str]:
-    """The chart as lines of text: what a terminal shows, with a legend."""
+    """The chart as lines of text: what a terminal shows."""
     rows = [("method", "call", "ns", "max rel", "p99 rel", "max abs", "failures")]
     for constant in (False, True):
         absolute = {(s.method, label(s.parameters), s.dtype): s.error for s in spots(data, "max_abs", constant)}
@@ -212,5 +204,4 @@ def table(data: Mapping[str, Any]) -> list[str]:
             away = absolute[s.method, label(s.parameters), s.dtype]
             rows.append((name, call, f"{s.ns:.3g}", f"{s.error:.1e}", f"{s.p99:.1e}", f"{away:.1e}", str(s.failures)))
     widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-    lines = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]
-    return [*lines, "", *LEGEND]
+    return ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip() for row in rows]

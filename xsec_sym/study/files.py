@@ -66,6 +66,13 @@ def text(data: Mapping[str, Any]) -> str:
     return layout(data, depth=2) + "\n"
 
 
+LEGEND = (
+    "call: with arrays, or with a constant for what a method may fold in; ns: median nanoseconds a value, as measured",
+    "max rel, p99 rel: the largest relative error found, and that which 99 of 100 points keep to; max abs: the largest",
+    "absolute one; failures: points where the value is not finite though the right one is",
+)
+
+
 def table(data: Mapping[str, Any]) -> list[str]:
     """Measurements as the lines of a table, one a method.
 

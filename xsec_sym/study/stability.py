@@ -77,7 +77,7 @@ def figure(data: Mapping[str, Any]) -> Figure:
         made = Figure(figsize=(11, height))
         frames = made.subplots(rows, COLUMNS, squeeze=False, sharex=True, sharey=True)
         for frame in frames.flat[len(found) :]:
-            frame.axis("off")
+            frame.set_visible(False)
         for frame, (name, digits) in zip(frames.flat, found.items(), strict=False):
             mesh = _map(frame, digits)
             frame.set_title(name, fontsize=7)
@@ -85,7 +85,9 @@ def figure(data: Mapping[str, Any]) -> Figure:
             frame.yaxis.set_ticks([])
             for argument in down:
                 _ticks(frame.yaxis, argument)
-        for frame in frames[-1]:
+        for frame in frames.flat[max(0, len(found) - COLUMNS) : len(found)]:
+            # the lowest of its column, though its row may not be the last
+            frame.tick_params(axis="x", labelbottom=True)
             frame.set_xlabel(across["name"])
         for frame in frames[:, 0]:
             frame.set_ylabel(down[0]["name"] if down else "")
@@ -97,7 +99,7 @@ def figure(data: Mapping[str, Any]) -> Figure:
             f"Condition number x eps: median {data['condition']['median'] * EPS:.1e}, 99th percentile "
             f"{data['condition']['p99'] * EPS:.1e}. xsec chart {data['quantity']} --stability"
         )
-        made.text(0.01, 0.05 / height, foot, fontsize=6, color="0.35")
+        made.text(0.01, 0.05 / height, foot, fontsize=6.5, color="0.35")
     return made
 
 

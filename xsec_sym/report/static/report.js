@@ -15,7 +15,10 @@
   };
   const dark = () => root.dataset.theme
     ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
-  const named = () => { theme.textContent = dark() ? "light" : "dark"; };
+  const named = () => {
+    theme.textContent = dark() ? "light" : "dark";
+    theme.title = `switch to ${theme.textContent} colours`;
+  };
   if (["light", "dark"].includes(stored())) root.dataset.theme = stored();
   theme.hidden = false;
   theme.addEventListener("click", () => { root.dataset.theme = dark() ? "light" : "dark"; stored(root.dataset.theme); named(); });
@@ -112,6 +115,8 @@
   };
   const reach = () => { // a link leads to its entry, whatever is filtered
     const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    const proof = target && $("details.derivation", target); // who comes by a link wants the derivation as well
+    if (proof && target.matches("article.entry")) proof.open = true;
     if (target && (target.hidden || target.closest("[hidden]"))) {
       search.value = "";
       boxes.forEach((b) => { b.checked = false; });
