@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from xsec_sym.proof.verdict import Verdict
 
 SIDES = ("left", "printed", "corrected")
-SIGNS = {"=": "=", "≈": r"\approx"}
+SIGNS = {"=": "=", "≈": r"\approx", "≥": r"\geq"}
 # What `xsec verify --json` tells of an entry; the record keeps the encoded expressions and the steps as well.
 PUBLIC = ("id", "source", "section", "label", "title", "kind", "verdict", "left", "printed", "corrected", "edit",
           "domain", "reading", "digits", "witness", "evidence", "mutants", "seconds", "parts", "note")  # fmt: skip
@@ -152,7 +152,7 @@ class Entry:
     def relation(self, side: str = "printed") -> str:
         """What stands between the two sides: "=", "≈" where they are only near, "≥" for an inequality.
 
-        An inequality X >= 0 is kept as |X| = X, and told as "X ≥ 0".
+        An inequality A >= B is kept as |A - B| = A - B.
         """
         if self.kind in ("approximation", "accuracy"):
             return "≈"
@@ -161,10 +161,10 @@ class Entry:
 
     def latex(self, side: str = "printed") -> str:
         """The whole equation with its printed, or its corrected, right side."""
-        right, relation = getattr(self, side), self.relation(side)
-        if right is None:
-            return self.left
-        return rf"{right} \geq 0" if relation == "≥" else rf"{self.left} {SIGNS[relation]} {right}"
+        from xsec_sym.record.relation import parts
+
+        left, right = parts(self, side)
+        return left if right is None else f"{left} {SIGNS[self.relation(side)]} {right}"
 
     def bibtex(self) -> str:
         """A BibTeX entry by which this verdict can be cited; `xsec_sym.record.sources.bibtex` has those of the sources.
@@ -178,11 +178,10 @@ class Entry:
         return cite(self)
 
     def nearness(self) -> str:
-        """How near the sides are to each other, where that was stated; empty for an equation."""
-        within = self.evidence.get("within", "") if self.relation() == "≈" else ""
-        if not within[:1].isdigit():
-            return within
-        return f"within {within}" + (" of the left side" if self.evidence.get("relative") else "")
+        """How near the sides are to each other, and how near they are said to be; empty for an equation."""
+        from xsec_sym.record.relation import nearness
+
+        return nearness(self)
 
     def heading(self, name: str) -> str:
         """What a side is called: it corrects something only where something is printed."""

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from xsec_sym.record.entry import Entry
+from xsec_sym.record.relation import sides
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -98,42 +99,45 @@ def _formula(entry: Entry, name: str, form: str, wide: int) -> str:
     left = right = None
     if form != "latex":
         with contextlib.suppress(ValueError, KeyError, TypeError):
-            left, right = entry.side("left"), entry.side(name)
+            left, right = sides(entry, name)
     relation = entry.relation(name)
     if left is None or (right is None and getattr(entry, name) is not None):
         text = entry.latex(name)
     else:
-        if relation == "≥":
-            from sympy import S
-
-            left, right = right, S.Zero
-        sides = [left] if right is None else [left, right]
-        text = (form == "pretty" and _typeset(sides, relation, wide)) or f" {relation} ".join(map(str, sides))
+        shown = [left] if right is None else [left, right]
+        text = (form == "pretty" and _typeset(shown, relation, wide)) or f" {relation} ".join(map(_in_line, shown))
         if form == "pretty" and "\n" not in text:
             # a formula wider than the page is easier to read in one line than torn into stacks
             text = textwrap.fill(text, wide, break_long_words=False, break_on_hyphens=False)
     return f"{entry.heading(name)}\n{textwrap.indent(text, ' ' * INDENT)}"
 
 
+def _in_line(side: Expr) -> str:
+    # the magnitude that is left as it is reads as any other
+    return str(side).replace("Magnitude(", "Abs(")
+
+
 def _typeset(sides: list[Expr], relation: str, wide: int) -> str:
     """Side by side where that fits, one below the other where not; nothing if even so it is too wide."""
-    from sympy import pretty
+    from sympy.printing.pretty.pretty import PrettyPrinter, pretty_use_unicode
 
-    shown = [pretty(side, use_unicode=True, num_columns=10_000) for side in sides]
-    for text in (_beside(shown[0], shown[1], relation) if len(shown) == 2 else shown[0], f"\n{relation}\n".join(shown)):
+    before = pretty_use_unicode(True)
+    try:
+        # pictures know on which of their lines a sign has to stand
+        pictures = [PrettyPrinter({"num_columns": 10_000})._print(side) for side in sides]
+    finally:
+        pretty_use_unicode(before)
+    beside = str(_beside(pictures[0], pictures[1], relation)) if len(pictures) == 2 else str(pictures[0])
+    for text in (beside, f"\n{relation}\n".join(map(str, pictures))):
         if max(map(len, text.splitlines())) <= wide:
             return text
     return ""
 
 
-def _beside(left: str, right: str, relation: str) -> str:
+def _beside(left: Any, right: Any, relation: str) -> Any:
     from sympy.printing.pretty.stringpict import stringPict
 
-    def picture(text: str) -> Any:
-        lines = text.splitlines()
-        return stringPict(text, len(lines) // 2)
-
-    return str(stringPict(*picture(left).right(f" {relation} ", picture(right))))
+    return stringPict(*left.right(f" {relation} ", right))
 
 
 def _field(name: str, text: str) -> str:

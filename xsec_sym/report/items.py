@@ -10,6 +10,7 @@ from typing import Any
 from markupsafe import Markup
 
 from xsec_sym.record.entry import Entry
+from xsec_sym.record.relation import parts
 from xsec_sym.record.show import MEANING, MEASURED
 from xsec_sym.report import words
 from xsec_sym.report.code import Code
@@ -121,7 +122,8 @@ class Item:
     def _equation(self, right: Any, side: str) -> Markup:
         relation = self.entry.relation(side)
         if relation == "≥":
-            return Markup(equation(right, tree("0"), relation))
+            greater, lesser = map(tree, parts(self.entry, side))  # type: ignore[arg-type]
+            return Markup(equation(greater, lesser, relation))
         return Markup(equation(tree(self.entry.left) if self.entry.left else None, right, relation))
 
     # --- facts ------------------------------------------------------------------------------------------
