@@ -1,5 +1,6 @@
 import json
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -15,6 +16,7 @@ from xsec_sym import cli, guide, verifying
 from xsec_sym.export.recipes import RECIPES
 from xsec_sym.proof.verdict import Verdict
 from xsec_sym.record import Entry, Ledger, store
+from xsec_sym.record.sources import SOURCES
 from xsec_sym.study.method import HOMES
 
 MINE = """from sympy import Symbol
@@ -153,7 +155,8 @@ def test_a_proof_that_does_not_go_through_is_told(mine, engine):
 
 def test_json(mine, engine, tmp_path):
     path = tmp_path / "out.json"
-    run("verify", "mine:3", "mine:4", "--derivations", mine, "--digits", 40, "--json", path)
+    done = run("verify", "mine:3", "mine:4", "--derivations", mine, "--digits", 40, "--json", path)
+    assert done.stderr == f"wrote {path}\n"
     data = json.loads(path.read_text())
     assert data["digits"] == 40 and [e["id"] for e in data["entries"]] == ["mine:1", "mine:3", "mine:4"]
     entry = data["entries"][1]
@@ -176,7 +179,10 @@ def test_json(mine, engine, tmp_path):
         (["verify", "--json", "/"], ["cannot write /"]),
         (["verify", "--cluster", "tcp://127.0.0.1:1"], ["distributed"]),
         (["verify", "--cluster", "tcp://127.0.0.1:1", "--derivations", "/tmp"], ["--derivations cannot go"]),
+        (["verify", "deon2016"], ["no claim deon2016, but a source: --source deon2016"]),
         (["show"], ["name at least one entry"]),
+        (["show", "sigma_ggx"], ["but a quantity: xsec chart sigma_ggx"]),
+        (["show", "--derivations", "/nowhere", "a:1"], ["/nowhere is not a folder"]),
         (["show", "deon2016:twenty"], ["no entry deon2016:twenty"]),
         (["show", "--bibtex", "dupuy2061"], ["no entry dupuy2061; did you mean dupuy2016"]),
         (["sohw"], ["no command sohw; did you mean show?"]),
@@ -209,6 +215,7 @@ def test_every_mistake_is_one_line(arguments, words, mine, monkeypatch):
 def test_a_name_that_cannot_be_exported():
     refused(run("export", "sigma_inv1pu"), "did you mean sigma_inv1pu2")
     refused(run("export", "deon2016:4l"), "did you mean deon2016:4")
+    refused(run("export", "sigma_spherical_gausian"), "did you mean sigma_spherical_gaussian ")
 
 
 def test_a_broken_derivation_is_one_line_and_no_file(mine, tmp_path):
@@ -290,14 +297,14 @@ def exporter(monkeypatch):
             raise Refusal("bad is not verified:\nno export")
         return f"# {' '.join(names)} {dtype}\n"
 
-    fake = SimpleNamespace(module=module, Refusal=Refusal, names=lambda record: ["sigma  area", "deon2016:7  flat"])
+    fake = SimpleNamespace(module=module, Refusal=Refusal, available=lambda record: {"sigma": "area"})
     monkeypatch.setitem(sys.modules, "xsec_sym.export", fake)
 
 
 def test_export(exporter, tmp_path):
     listed = run("export").stdout.splitlines()
-    assert [line for line in listed if line[0] != "#"] == ["sigma  area", "deon2016:7  flat"]
-    assert listed[0].startswith("# functions") and listed[2] == "# deon2016" and "scipy.special" in listed[4]
+    assert listed[:2] == ["# functions that several verified equations make up", "sigma  area"]
+    assert all(line.startswith("# ") for line in listed[2:])
     assert run("export", "a", "b", "--dtype", "float32").stdout == "# a b float32\n"
     written = run("export", "a", "-o", tmp_path / "k.py")
     assert (written.exit_code, written.stdout, written.stderr) == (0, "", f"wrote {tmp_path / 'k.py'}\n")
@@ -312,6 +319,19 @@ def test_a_kernel_made_by_hand_is_pointed_to():
     assert guide.made_by_hand("sigma_inv1pu2") == guide.made_by_hand("nothing") == ""
 
 
+def test_the_list_of_exports_is_grouped_and_easily_searched():
+    lines = run("export").stdout.splitlines()
+    names = [line for line in lines if not line.startswith("#")]
+    assert len(names) > 200 and all(re.match(r"(sigma_\w+|[a-z_0-9]+:\S+) +\S", line) for line in names)
+    heads = [line.split()[1].rstrip(":") for line in lines if line.startswith("# ")]
+    assert [h for h in heads if h in RECORD.sources] == RECORD.sources
+    for key in RECORD.sources:
+        own = [k for k, line in enumerate(lines) if line.startswith(f"{key}:")]
+        assert own == list(range(own[0], own[0] + len(own))) and lines[own[0] - 1].startswith(f"# {key}: ")
+    marked = {line.split()[0] for line in names if line.endswith("  [scipy]")}
+    assert "deon2016:31" in marked and not {"deon2016:35", "deon2016:11", "sigma_power"} & marked
+
+
 def test_export_and_report_take_what_is_one_s_own(mine, engine, exporter, tmp_path, monkeypatch):
     run("verify", "--source", "mine", "--derivations", mine, "--record")
     given = []
@@ -322,6 +342,29 @@ def test_export_and_report_take_what_is_one_s_own(mine, engine, exporter, tmp_pa
     assert run("export", "mine:1", "--derivations", mine).exit_code == 0
     assert run("report", "--derivations", mine, "-o", tmp_path / "pages").exit_code == 0
     assert [sorted(record) for record in given] == [IDS, IDS]
+
+
+# --- what stands beside the program -----------------------------------------------------------------------
+
+
+def test_make_help_lists_what_contributing_does():
+    done = subprocess.run(["make", "help"], cwd=ROOT, capture_output=True, text=True)
+    listed = {line.split()[1] for line in done.stdout.splitlines() if line.startswith("make ")}
+    phony = re.search(r"^\.PHONY: (.*)$", (ROOT / "Makefile").read_text(), re.M)[1].split()
+    told = re.findall(r"`make ([a-z-]+)", (ROOT / "CONTRIBUTING.md").read_text())
+    assert done.returncode == 0 and listed == set(phony) and listed - {"clean"} <= set(told) <= listed
+
+
+def test_the_citation_names_the_sources():
+    yaml = pytest.importorskip("yaml")
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))["references"]
+    for source, reference in zip([s for s in SOURCES.values() if not s.own], cited, strict=True):
+        names = [
+            f"{a['given-names']} {a['family-names']}" if "name" not in a else a["name"] for a in reference["authors"]
+        ]
+        assert (reference["title"], tuple(names)) == (source.title, source.authors)
+        for ours, theirs in (("year", "year"), ("doi", "doi"), ("volume", "volume"), ("number", "issue")):
+            assert source.fields.get(ours) == (str(reference[theirs]) if theirs in reference else None)
 
 
 # --- processes ---------------------------------------------------------------------------------------

@@ -65,6 +65,8 @@ def test_a_pipe_gets_one_line_a_formula_and_no_escapes():
 def test_a_terminal_without_unicode():
     said = on_a_terminal("show", "kenha2018:1", PYTHONIOENCODING="latin-1")
     assert "GGX" in said and "Traceback" not in said and "⎛" not in said
+    near = on_a_terminal("show", "deon2021:30", PYTHONIOENCODING="latin-1")
+    assert near.count("H^(1)(1, c) ~= exp(") == 2 and "?" not in near
 
 
 def test_beside_below_or_in_lines():
@@ -266,6 +268,16 @@ def test_a_reader_who_leaves_early_is_no_mistake(arguments):
     with subprocess.Popen([*XSEC, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=PLAIN) as left:
         left.stdout.close()
         assert left.wait(60) == 141 and left.stderr.read() == b""
+
+
+def test_a_reader_who_leaves_early_of_colours_or_of_a_mistake():
+    for arguments, code in ((["verify", "deon2016:9", "--jobs", "1"], 141), (["nothing"], 2)):
+        read, write = os.pipe()
+        os.close(read)
+        environment = {**PLAIN, "FORCE_COLOR": "1"}
+        with subprocess.Popen([*XSEC, *arguments], stdout=write, stderr=write, env=environment) as left:
+            os.close(write)
+            assert left.wait(60) == code
 
 
 # --- Ctrl-C ----------------------------------------------------------------------------------------------

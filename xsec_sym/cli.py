@@ -32,6 +32,8 @@ def _known(what: str) -> Callable[..., Any]:
 def _ledger(derivations: str | None) -> Any:
     from xsec_sym.record import store
 
+    if derivations and not Path(derivations).is_dir():
+        complain(f"{derivations} is not a folder of derivations")
     folders = [store.DATA, *([Path(derivations) / "record"] if derivations else [])]
     found = store.Ledger(*folders)
     try:
@@ -138,6 +140,8 @@ def verify(
     verifying.print_verdicts(entries)
     for said in [*show.summary(entries), *([] if record and not found else found), last]:
         click.echo(said)
+    if target is not None:
+        click.echo(f"wrote {target}", err=True)
     context.exit(1 if faults or not all(e.settled for e in entries) else 0)
 
 
@@ -183,7 +187,8 @@ def show(names: tuple[str, ...], latex: bool, bibtex: bool, derivations: str | N
 @click.argument("rhs")
 @click.option("--where", default="", help='The domain, such as "u in (-1, 1), n in {0, 1, 2}, u*n > 0".')
 @click.option("--digits", type=Count(1, 1000), default=30, show_default=True, help="Digits to agree on.")
-@click.option("--seconds", type=click.FloatRange(0.1, 86400), default=60.0, show_default=True, help="Time limit.")
+@click.option("--seconds", type=click.FloatRange(0.1, 86400), default=60.0, show_default=True, metavar="S",
+              help="Time limit.")  # fmt: skip
 @click.pass_context
 def check(context: click.Context, lhs: str, rhs: str, where: str, digits: int, seconds: float) -> None:
     """Check an equation of your own: LHS = RHS wherever --where holds.
@@ -263,18 +268,25 @@ def _measured(name: str, seed: int, jobs: int, cluster: str | None) -> dict[str,
 @main.command(short_help="Write verified expressions as a module of NumPy.")
 @click.argument("names", nargs=-1, metavar="[NAME]...", shell_complete=_known("exports"))
 @click.option("-o", "target", type=FILE, metavar="FILE", help="The module to write.  [default: standard output]")
-@click.option("--dtype", type=click.Choice(["float32", "float64"]), default="float64", show_default=True)
+@click.option("--dtype", type=click.Choice(["float32", "float64"]), default="float64", show_default=True,
+              help="What the functions return.")  # fmt: skip
 @OWN
 def export(names: tuple[str, ...], target: str | None, dtype: str, derivations: str | None) -> None:
-    """Write verified expressions as one module that imports NumPy; without a NAME, list what there is."""
+    """Write verified expressions as one module that imports NumPy; without a NAME, list what there is.
+
+    The list has a line for each name; lines that begin with # say what they have in common.
+    """
     from importlib import import_module
+
+    from xsec_sym import exporting
 
     exporter = import_module("xsec_sym.export")
     refusal = exporter.Refusal
     if not names:
         if target is not None:
             complain("name what to export; without a name there is only the list")
-        click.echo("\n".join(_exportable(exporter, _ledger(derivations))))
+        record = _ledger(derivations)
+        click.echo("\n".join(exporting.listing(exporter.available(record), record)))
         return
     for name in names:
         if said := guide.made_by_hand(name):
@@ -291,21 +303,6 @@ def export(names: tuple[str, ...], target: str | None, dtype: str, derivations: 
         click.echo(text, nl=False)
     else:
         click.echo(f"wrote {target}", err=True)
-
-
-def _exportable(exporter: Any, ledger: Any) -> list[str]:
-    """The list by where it comes from, under headings that no name begins like."""
-    lines: list[str] = []
-    last = None
-    for line in exporter.names(ledger):
-        name = str(line).split()[0]
-        home = name.partition(":")[0] if ":" in name else ""
-        if home != last:
-            lines.append(f"# {home or 'functions that take several equations together'}")
-            last = home
-        lines.append(str(line))
-    return [*lines, "# what has error or Bessel functions imports scipy.special as well, and says so",
-            "# kernels made by hand are not written: from xsec_sym.kernels import lambda_beckmann"]  # fmt: skip
 
 
 @main.command(short_help="Choose the cheapest kernels for a scene.")

@@ -121,7 +121,11 @@ def no_entry(name: str, derivations: str | None, near: str) -> str:
     >>> no_entry("mine:1", None, "")
     'there is no entry mine:1; one of your own wants --derivations PATH, and its verdict recorded'
     """
+    from xsec_sym.study.method import HOMES
+
     said = f"there is no entry {name}{near}"
+    if name in HOMES:
+        return f"there is no entry {name}, but a quantity: xsec chart {name}"
     if near:
         return said
     if derivations:

@@ -59,11 +59,11 @@ class Program(click.Group):
             code = run(*args, standalone_mode=False, **extra)
         except Interrupted as left:
             # what is echoed as ^C stands on the line already
-            click.echo(f"{chr(10) * sys.stderr.isatty()}xsec: {left.message}", err=True)
+            _tell(f"{chr(10) * sys.stderr.isatty()}xsec: {left.message}")
             _EXIT.append(INTERRUPTED)
             code = INTERRUPTED
         except click.ClickException as mistake:
-            click.echo(f"xsec: {one_line(_told(mistake))}", err=True)
+            _tell(f"xsec: {one_line(_told(mistake))}")
             code = 2
         except (click.Abort, KeyboardInterrupt):
             code = INTERRUPTED
@@ -90,6 +90,12 @@ class Program(click.Group):
         if self.get_command(context, name) is None and not name.startswith("-"):
             complain(f"there is no command {name}{nearest_or_all(name, self.commands)}")
         return super().resolve_command(context, args)
+
+
+def _tell(said: str) -> None:
+    # nobody may be reading that either
+    with contextlib.suppress(BrokenPipeError):
+        click.echo(said, err=True)
 
 
 def _told(mistake: click.ClickException) -> str:
@@ -209,6 +215,12 @@ def paint(text: str, colour: str) -> str:
 
 
 def say(text: str) -> None:
+    try:
+        text.encode(sys.stdout.encoding or "utf-8")
+    except (UnicodeEncodeError, LookupError):
+        # signs that mean something are spelt out where there are no such letters
+        for sign, spelt in (("≈", "~="), ("≥", ">=")):
+            text = text.replace(sign, spelt)
     click.echo(text, color=coloured())
 
 

@@ -34,7 +34,8 @@ def chosen_ids(ids: Sequence[str], sources: Sequence[str], claims: dict[str, Any
     known = list(dict.fromkeys(c.source for c in claims.values()))
     for name in ids:
         if name not in claims:
-            complain(f"there is no claim {name}{nearest(name, claims)}")
+            hint = f", but a source: --source {name}" if name in known else nearest(name, claims)
+            complain(f"there is no claim {name}{hint}")
     for key in sources:
         if key not in known:
             complain(f"there is no source {key}{nearest_or_all(key, known)}")
@@ -84,7 +85,11 @@ def print_verdicts(entries: Sequence[Any]) -> None:
         from rich.console import Console
 
         # where colours are forced into a pipe, no line is folded for its sake
-        Console(width=None if sys.stdout.isatty() else 200).print(show.table(entries))
+        console = Console(width=None if sys.stdout.isatty() else 200)
+        # a pipe that is closed is not for the library to see
+        with console.capture() as table:
+            console.print(show.table(entries))
+        say(table.get().rstrip("\n"))
     else:
         for line in show.lines(entries):
             say(line)

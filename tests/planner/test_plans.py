@@ -12,7 +12,7 @@ import pytest
 from click.testing import CliRunner
 
 from xsec_sym import cli, kernels, plan
-from xsec_sym.planner import Scene
+from xsec_sym.planner import Scene, planning
 from xsec_sym.planner.candidates import largest, points
 from xsec_sym.planner.planning import loaded
 from xsec_sym.study.files import DATA
@@ -141,6 +141,13 @@ def test_what_is_chosen_is_the_cheapest_that_keeps_to_the_tolerance(fog):
             known = turned.error is not None and turned.ns_per_value is not None
             if known and turned.ns_per_value < 0.9 * planned.ns_per_value:
                 assert turned.error * 2 > planned.material.tolerance or not turned.reason.startswith("its error")
+
+
+def test_why_a_method_that_is_installed_is_no_part_of_a_module(fog):
+    pytest.importorskip("numba")
+    compiled = {r.reason for m in fog.materials for r in m.rejected if r.method.startswith("kernel, compiled")}
+    assert compiled == {"needs numba, while a planned module imports NumPy and SciPy alone"}
+    assert all(reason.startswith(planning._UNWRITABLE) for reason in compiled), "it would be told as the best there is"
 
 
 def test_narrow_ranges_let_other_models_in():

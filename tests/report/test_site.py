@@ -300,6 +300,19 @@ def test_nothing_is_said_to_equal_itself_without_a_reason(parsed):
     assert alike
 
 
+def test_what_is_near_and_what_is_least_is_not_set_as_equal(parsed):
+    for key, label, between in (("deon2021", "28", "≈"), ("deon2016", "claim.44-accuracy", "≈"),
+                                ("xsec", "bessel-order", "≥"), ("deon2016", "9", "=")):  # fmt: skip
+        page = parsed[f"{key}.html"]
+        item = next(a for a in articles(page) if a["attrs"]["id"] == label)
+        inside = [e for e in page.elements if item in e["within"]]
+        signs = [e["text"] for e in inside if e["tag"] == "mo" and e["attrs"].get("form") == "infix"]
+        assert signs == [between] * (2 if label == "28" else 1), label
+        sides = [e for e in inside if e["tag"] == "math" and e["attrs"].get("display") == "block"]
+        assert len(sides) == 2 * len(signs) and all(len(side["text"]) > 1 for side in sides)
+        assert ("within 0.001; the largest error is 0.00103" in item["text"]) == (label == "claim.44-accuracy")
+
+
 def test_formulas_in_prose_are_told_apart(parsed):
     item = next(a for a in articles(parsed["deon2016.html"]) if a["attrs"]["id"] == "18")
     said = [e["text"] for e in parsed["deon2016.html"].of_class("maths") if item in e["within"]]

@@ -6,14 +6,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from xsec_sym.export.assemble import available, module, names
+    from xsec_sym.export.assemble import available, module
     from xsec_sym.export.kernel import Refusal
     from xsec_sym.export.rules import NotShown
 
-__all__ = ["NotShown", "Refusal", "available", "module", "names"]
+__all__ = ["NotShown", "Refusal", "available", "module"]
 
 # Not before it is asked for: the names of the recipes, which a shell completes, need no SymPy.
-_HOME = {"NotShown": "rules", "Refusal": "kernel", "available": "assemble", "module": "assemble", "names": "assemble"}
+_HOME = {"NotShown": "rules", "Refusal": "kernel", "available": "assemble", "module": "assemble"}
 
 
 def __getattr__(name: str) -> Any:

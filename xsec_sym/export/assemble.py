@@ -12,6 +12,7 @@ from typing import Any
 
 from sympy import Integer, Rational, oo
 
+from xsec_sym import kernels
 from xsec_sym.export.floats import SPECIAL
 from xsec_sym.export.kernel import VERIFIED, Branch, Refusal, branches, core, named, python_names
 from xsec_sym.export.measure import judged, largest
@@ -72,13 +73,6 @@ def closed(record: Record) -> Iterator[tuple[Entry, list[Branch]]]:
             yield entry, _branches(entry, record)
 
 
-def names(record: Record | None = None) -> list[str]:
-    """The lines of `available`, as a terminal shows them."""
-    found = available(record)
-    wide = max(map(len, found), default=0)
-    return [f"{name:{wide}}  {said}" for name, said in found.items()]
-
-
 def _stands(record: Record, name: str) -> bool:
     return name in record and record[name].verdict in VERIFIED | {"divergent"}
 
@@ -89,7 +83,9 @@ def _entry(record: Record, name: str) -> Entry:
     except KeyError:
         if any(entry.source == name for entry in record.values()):
             raise Refusal(f"{name} is a source: export its equations by their ids") from None
-        raise Refusal(f"there is nothing to export by the name {name}{nearest(name, [*RECIPES, *record])}") from None
+        raise Refusal(
+            f"there is nothing to export by the name {name}{nearest(name, [*RECIPES, *kernels.__all__, *record])}"
+        ) from None
 
 
 def _branches(entry: Entry, record: Record) -> list[Branch]:

@@ -23,7 +23,7 @@ def reason_not_to_write(candidate: Candidate) -> str:
     if method.serial:
         return "takes one number at a time"
     if method.needs:
-        return f"the plan writes NumPy alone, and it needs {method.needs}"
+        return f"needs {method.needs}, while a planned module imports NumPy and SciPy alone"
     if method.folds and candidate.material.folded is None:
         return "is for constant " + ", ".join(a.name for a in candidate.material.quantity.set)
     try:
